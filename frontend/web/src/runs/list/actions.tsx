@@ -1,5 +1,5 @@
 import { useEffect, useState } from "preact/hooks";
-import { noteDownload } from "../../core/api/calls";
+import { logDownload } from "../../core/api/calls";
 import { addressOf, branchRun, exportPath } from "../../core/api/runs";
 import type { ExportName, RunDetails } from "../../core/api/types";
 import { text } from "../../core/text/en";
@@ -7,14 +7,15 @@ import { ErrorLine } from "../../core/widgets/form";
 import { Popup } from "../../core/widgets/popup";
 import { CopyButton } from "../../lab/script/copybutton";
 import { makeRunScript, scriptProblem } from "../../lab/script/repeat";
-import { putIntoTrash } from "./list";
+import { moveToTrash } from "./list";
 import { goTo, linkTo } from "./place";
-import { attempt, makeFile, making } from "./problem";
+import { attempt, exportFile, fileExport } from "./problem";
 
 const words = text.run;
+
 const KINDS: readonly (ExportName | "html")[] = ["csv", "parquet", "mat", "mcap", "html"];
 
-/** The tick of the run's own count that a moment of the replay is. */
+/** The tick of the run at a moment of the replay. */
 const tickAt = (run: RunDetails, moment: number): number =>
   run.first_tick + Math.min(Math.round(moment / run.period_s), Math.max(0, run.ticks - 1));
 
@@ -42,9 +43,9 @@ function Branch({ run, moment }: { run: RunDetails; moment: number }) {
   );
 }
 
-/** Of a file that takes long: that it is being made, and the result. */
+/** Progress of a slow export, and its result. */
 function MakingNote({ run }: { run: RunDetails }) {
-  const now = making.value?.run === run.id ? making.value : null;
+  const now = fileExport.value?.run === run.id ? fileExport.value : null;
   const [seconds, count] = useState(0);
   const stage = now?.stage;
   useEffect(() => {
@@ -69,7 +70,7 @@ function MakingNote({ run }: { run: RunDetails }) {
 }
 
 function Exports({ run }: { run: RunDetails }) {
-  const isMaking = making.value?.stage === "making";
+  const isMaking = fileExport.value?.stage === "making";
   return (
     <Popup class="button run-exports" title={words.downloadHint} button={words.download}>
       {(close) => (
@@ -83,9 +84,9 @@ function Exports({ run }: { run: RunDetails }) {
                     type="button"
                     disabled={isMaking}
                     onClick={() => {
-                      noteDownload(path);
+                      logDownload(path);
                       close();
-                      void makeFile(run.id, path);
+                      void exportFile(run.id, path);
                     }}
                   >
                     <strong>{words.kinds[kind].name}</strong>{" "}
@@ -100,7 +101,7 @@ function Exports({ run }: { run: RunDetails }) {
                   href={addressOf(path)}
                   download
                   onClick={() => {
-                    noteDownload(path);
+                    logDownload(path);
                     close();
                   }}
                 >
@@ -115,12 +116,12 @@ function Exports({ run }: { run: RunDetails }) {
   );
 }
 
-/** What may be done with a run, at the moment that its replay shows. */
+/** Commands for a run, at the moment that its replay shows. */
 export function RunActions({ run, moment }: { run: RunDetails; moment: number }) {
   const link = () =>
     new URL(linkTo({ kind: "run", run: run.id, timeS: moment }), location.href).href;
   const remove = async () => {
-    if (await putIntoTrash(run.id)) goTo({ kind: "list" });
+    if (await moveToTrash(run.id)) goTo({ kind: "list" });
   };
   return (
     <div class="row run-actions">

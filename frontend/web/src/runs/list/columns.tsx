@@ -1,25 +1,25 @@
-/** The columns of the table of runs: what they are called, how they sort, what a run has in them. */
+/** The columns of the table of runs: labels, sorting, cells. */
 import type { ComponentChildren } from "preact";
 import type { RunSummary } from "../../core/api/types";
 import { text } from "../../core/text/en";
 import { formatError, formatNumber, toDegrees } from "../../core/units";
-import { Marked } from "./marked";
-import { describeMeasured, explainSteadyState, shiftToRecord } from "./measured";
+import { Highlighted } from "./highlight";
+import { describeMeasured, explainSteadyState, shiftToRecordTime } from "./measured";
 import { formatDuration, formatMoment, formatMomentShort } from "./words";
 
 const words = text.runs;
-/** Stands between the laws of a lane, one after the other. */
+/** Separates successive laws of a lane. */
 const CHANGED = "→";
 
 export interface Column {
   key: string;
   name: string;
   hint?: string;
-  /** Said before the value where there is no head of a table. */
+  /** Label before the value if the table has no header. */
   label?: string;
-  /** The server's name for the order by it; left out where there is none. */
+  /** The server's name of the sort order; left out if there is none. */
   sort?: string;
-  /** Whether the first press shows the greatest first. */
+  /** Whether the first click sorts in descending order. */
   isDownFirst?: boolean;
   isNumber?: boolean;
   /** Whether the automatic name of the run contains it, too. */
@@ -33,16 +33,16 @@ type Measure =
   | "steady_state_position_error_rad"
   | "rms_position_error_rad";
 
-/** Of whom, too, where the laws were not the same throughout. */
+/** With the law in control, if the laws changed during the run. */
 function windowOf(run: RunSummary): string | null {
   const isNamed = run.settings?.laws.includes(CHANGED) ?? false;
-  return run.window && describeMeasured(shiftToRecord(run.window, run), isNamed);
+  return run.window && describeMeasured(shiftToRecordTime(run.window, run), isNamed);
 }
 
 const degreesOf = (run: RunSummary, measure: Measure): string[] =>
   (run.metrics ?? []).map((lane) => formatDegrees(lane[measure]));
 
-/** Lane by lane; where there is no room for all of them, whole values are left out. */
+/** One value per lane; if they do not fit, whole values are left out. */
 function Degrees({ values }: { values: readonly string[] }) {
   return (
     <>
@@ -56,7 +56,7 @@ function Degrees({ values }: { values: readonly string[] }) {
   );
 }
 
-/** Each with who controlled the lane. */
+/** Each with the law that controlled the lane. */
 export const describeDegrees = (run: RunSummary, measure: Measure): string | undefined =>
   run.window?.lanes
     .map((name, lane) => `${name} ${degreesOf(run, measure)[lane] ?? formatNumber(null)}`)
@@ -81,11 +81,11 @@ const measureOf = (
 });
 
 const setting = (read: (settings: NonNullable<RunSummary["settings"]>) => string) => ({
-  show: (run: RunSummary) => run.settings && <Marked>{read(run.settings)}</Marked>,
+  show: (run: RunSummary) => run.settings && <Highlighted>{read(run.settings)}</Highlighted>,
   hintOf: (run: RunSummary) => (run.settings ? read(run.settings) : undefined),
 });
 
-/** "Fig. 4A", "Fig. 4A motion", "from Fig. 4A", or the motion of a run of no figure. */
+/** "Fig. 4A", "Fig. 4A motion", "from Fig. 4A", or the motion of a run without a figure. */
 function figureOf({ settings }: Pick<RunSummary, "settings">): string {
   return settings?.figure_name || (settings?.motion ?? "");
 }
@@ -96,7 +96,7 @@ export const COLUMNS: readonly Column[] = [
     name: words.columns.figure,
     sort: "figure",
     isInName: true,
-    show: (run) => <Marked>{figureOf(run)}</Marked>,
+    show: (run) => <Highlighted>{figureOf(run)}</Highlighted>,
     hintOf: (run) => run.settings?.motion,
   },
   {

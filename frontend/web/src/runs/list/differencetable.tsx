@@ -30,7 +30,7 @@ function Group({ name, rows }: { name: string; rows: readonly Row[] }) {
   );
 }
 
-/** What was set otherwise in one of these runs than in another, and nothing else. */
+/** Only the settings that differ between these runs. */
 export function DifferenceTable({ difference }: { difference: RunDifference }) {
   const { differences, titles } = difference;
   if (differences.length === 0) return <p class="muted">{words.none}</p>;

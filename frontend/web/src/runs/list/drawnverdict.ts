@@ -1,8 +1,8 @@
-/** A verdict on a plot: the band, the moments that leave it, and the worst of them. */
+/** A verdict on a plot: the tolerance band, the intervals outside it, and the largest deviation. */
 import type uPlot from "uplot";
 import { palette } from "../../core/plots/linestyles";
-import type { Overlaid } from "./overlaid";
-import type { BandShown, JudgedCurve } from "./verdict";
+import type { OverlayCurve } from "./overlaycurves";
+import type { CurveAssessment, ToleranceBand } from "./verdict";
 
 const BAND_ALPHA = 0.16;
 const STRIPE_ALPHA = 0.14;
@@ -20,8 +20,8 @@ function within(plot: uPlot, draw: (context: CanvasRenderingContext2D) => void):
   context.restore();
 }
 
-/** Segments of a band of which both bounds are known, as indices from … to before. */
-export function listKnown({ low, high }: BandShown): [number, number][] {
+/** Segments of a band with two known bounds, as indices from … to before. */
+export function listKnown({ low, high }: ToleranceBand): [number, number][] {
   const known: [number, number][] = [];
   let begin = -1;
   for (let index = 0; index <= low.length; index++) {
@@ -35,7 +35,7 @@ export function listKnown({ low, high }: BandShown): [number, number][] {
   return known;
 }
 
-export function drawBands(plot: uPlot, bands: readonly BandShown[]): void {
+export function drawBands(plot: uPlot, bands: readonly ToleranceBand[]): void {
   within(plot, (context) => {
     context.fillStyle = palette.peek().mark;
     context.globalAlpha = BAND_ALPHA;
@@ -56,8 +56,8 @@ export function drawBands(plot: uPlot, bands: readonly BandShown[]): void {
   });
 }
 
-/** Stripes over the height, and in a row of each curve a bar at the top. */
-export function drawOutside(plot: uPlot, judged: readonly JudgedCurve[]): void {
+/** Vertical stripes, and one row of bars per curve at the top. */
+export function drawOutside(plot: uPlot, judged: readonly CurveAssessment[]): void {
   const { top, height } = plot.bbox;
   within(plot, (context) => {
     judged.forEach(({ curve, outside }, row) => {
@@ -76,10 +76,10 @@ export function drawOutside(plot: uPlot, judged: readonly JudgedCurve[]): void {
   });
 }
 
-/** Where a curve that is not held leaves its band furthest. */
-export function drawWorst(plot: uPlot, judged: readonly JudgedCurve[]): void {
+/** The point at which a failed curve is farthest outside its band. */
+export function drawWorst(plot: uPlot, judged: readonly CurveAssessment[]): void {
   within(plot, (context) => {
-    for (const { curve, isHeld, worstS, value } of judged) {
+    for (const { curve, isWithin: isHeld, worstS, value } of judged) {
       if (isHeld || value === null) continue;
       const [x, y] = [plot.valToPos(worstS, "x", true), plot.valToPos(value, "y", true)];
       context.beginPath();
@@ -94,10 +94,10 @@ export function drawWorst(plot: uPlot, judged: readonly JudgedCurve[]): void {
   });
 }
 
-// Lines on an overlay where windows begin and end.
+// Lines on an overlay at the start and end of windows.
 
-/** Time 0, and in its colour where the window of a curve's numbers begins otherwise, and ends. */
-export function drawEdges(plot: uPlot, curves: readonly Overlaid[]): void {
+/** Time 0, and in the color of a curve the start of its window if different, and its end. */
+export function drawEdges(plot: uPlot, curves: readonly OverlayCurve[]): void {
   drawEdge(plot, 0, palette.peek().mark);
   curves.forEach(({ startS, changedS, lineStyle }, index) => {
     if (plot.series[index + 1]?.show !== true) return;

@@ -1,13 +1,13 @@
 import { text } from "../../core/text/en";
 import { COLUMNS, NAME_SORT } from "./columns";
-import { ask, FILTERS, type Filter, filters, found, isTrash, search, sort } from "./list";
+import { changeQuery, FILTERS, type Filter, filters, isTrash, runList, search, sort } from "./list";
 import { nameValue } from "./words";
 
 const words = text.runs;
 
-/** A choice among what the runs have; nothing where there is nothing to choose. */
+/** A filter by a value of the runs; nothing if there is only one value. */
 function FilterChoice({ filter }: { filter: Filter }) {
-  const counts = Object.entries(found.value?.facets[filter] ?? {});
+  const counts = Object.entries(runList.value?.facets[filter] ?? {});
   const value = filters.value[filter];
   if (counts.length < (filter === "tag" ? 1 : 2) && value === "") return null;
   const isAlone = search.value === "" && FILTERS.every((other) => filters.value[other] === "");
@@ -20,7 +20,7 @@ function FilterChoice({ filter }: { filter: Filter }) {
       <select
         value={value}
         class={value === "" ? "" : "is-chosen"}
-        onChange={(event) => ask({ filters: { [filter]: event.currentTarget.value } })}
+        onChange={(event) => changeQuery({ filters: { [filter]: event.currentTarget.value } })}
       >
         <option value="">{words.filters[filter].any}</option>
         {options
@@ -35,7 +35,7 @@ function FilterChoice({ filter }: { filter: Filter }) {
   );
 }
 
-/** The columns' order for windows in which the table has no head. */
+/** The sort order, for windows in which the table has no header. */
 function SortChoice() {
   const columns = [{ name: words.columns.name, sort: NAME_SORT }, ...COLUMNS].filter(
     ({ sort: order }) => order !== undefined,
@@ -43,7 +43,10 @@ function SortChoice() {
   return (
     <label class="runs-sort">
       <span class="visually-hidden">{words.sort}</span>
-      <select value={sort.value} onChange={(event) => ask({ sort: event.currentTarget.value })}>
+      <select
+        value={sort.value}
+        onChange={(event) => changeQuery({ sort: event.currentTarget.value })}
+      >
         {columns.map((column) => (
           <>
             <option key={column.sort} value={column.sort}>
@@ -70,7 +73,7 @@ export function Finder() {
           placeholder={words.searchHint}
           title={words.searchDoes}
           value={search.value}
-          onInput={(event) => ask({ search: event.currentTarget.value })}
+          onInput={(event) => changeQuery({ search: event.currentTarget.value })}
         />
       </label>
       {FILTERS.map((filter) => (
@@ -82,7 +85,7 @@ export function Finder() {
         class="button"
         aria-pressed={isTrash.value}
         title={words.trashHint}
-        onClick={() => ask({ isTrash: !isTrash.peek() })}
+        onClick={() => changeQuery({ isTrash: !isTrash.peek() })}
       >
         {words.trash}
       </button>

@@ -4,14 +4,14 @@ import { text } from "../../core/text/en";
 import { Pager } from "../../core/widgets/tables";
 import { Finder } from "./finder";
 import {
-  chosen,
   followList,
-  found,
-  isNarrowed,
+  isFiltered,
   isTrash,
   PAGE_SIZE,
   pageNumber,
   refresh,
+  runList,
+  selectedRuns,
   showAll,
 } from "./list";
 import { goTo, PlaceLink } from "./place";
@@ -21,7 +21,7 @@ const words = text.runs;
 const RECORDING_MS = 3000;
 
 function Overlayer() {
-  const count = chosen.value.length;
+  const count = selectedRuns.value.length;
   return (
     <div class="row end runs-overlayer">
       {count > 0 && (
@@ -29,7 +29,7 @@ function Overlayer() {
           type="button"
           class="quiet"
           onClick={() => {
-            chosen.value = [];
+            selectedRuns.value = [];
           }}
         >
           {words.clear}
@@ -40,7 +40,7 @@ function Overlayer() {
         class="button is-primary"
         disabled={count < 2}
         title={words.overlayHint}
-        onClick={() => goTo({ kind: "overlay", runs: chosen.peek() })}
+        onClick={() => goTo({ kind: "overlay", runs: selectedRuns.peek() })}
       >
         {words.overlay(count)}
       </button>
@@ -49,8 +49,8 @@ function Overlayer() {
 }
 
 function Empty() {
-  if (isTrash.value && !isNarrowed.value) return <p class="empty">{words.emptyTrash}</p>;
-  if (isNarrowed.value) {
+  if (isTrash.value && !isFiltered.value) return <p class="empty">{words.emptyTrash}</p>;
+  if (isFiltered.value) {
     return (
       <div class="empty">
         <p>{words.nothing}</p>
@@ -106,7 +106,7 @@ function Indexing({ progress }: { progress: NonNullable<RunList["indexing"]> }) 
 /** Every recorded run as a table, newest first. */
 export function ListPage() {
   useEffect(followList, []);
-  const list = found.value;
+  const list = runList.value;
   const indexing = list?.indexing ?? null;
   const isRecorded = list?.runs.some((run) => run.state === "recording") ?? false;
   const isGrowing = isRecorded || indexing !== null;

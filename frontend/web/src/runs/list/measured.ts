@@ -1,4 +1,4 @@
-/** In which window of a run its numbers were measured, in words. */
+/** Text for the window of a run in which its metrics were measured. */
 import type { MeasuredWindow, RunSummary } from "../../core/api/types";
 import { measuredText as words } from "../../core/text/measured";
 
@@ -7,8 +7,8 @@ export type Measured = Pick<
   "label" | "start_s" | "end_s" | "is_whole" | "lanes" | "load_ended"
 >;
 
-/** In the time of the replay, which begins with the first sample. */
-export function shiftToRecord<T extends Measured>(
+/** In the time of the replay, which starts with the first sample. */
+export function shiftToRecordTime<T extends Measured>(
   window: T,
   { first_tick: first, period_s: period }: Pick<RunSummary, "first_tick" | "period_s">,
 ): T {
@@ -16,7 +16,7 @@ export function shiftToRecord<T extends Measured>(
   return { ...window, start_s: window.start_s - zero, end_s: window.end_s - zero };
 }
 
-/** isNamed: with who controlled, where others did in other windows of the run. */
+/** isNamed: with the controller, if others controlled other windows of the run. */
 export function describeMeasured(window: Measured, isNamed = false): string {
   const { label, start_s: start, end_s: end, is_whole: isWhole, lanes } = window;
   const what = isWhole
@@ -25,12 +25,12 @@ export function describeMeasured(window: Measured, isNamed = false): string {
   return isNamed ? words.controlled(lanes, what) : what;
 }
 
-/** The steady-state error, or why there is none. */
+/** The steady-state error, or the reason why there is none. */
 export function explainSteadyState({ load_ended: hasEnded, start_s: start, end_s: end }: Measured) {
   if (hasEnded) return words.loadEnded;
   return end - start < 1 ? words.tooShort : words.steadyStateHint;
 }
 
-/** Whether a load came on or was removed at the start of the window. */
+/** Whether a load was added or removed at the start of the window. */
 export const isDisturbed = ({ kind }: Pick<MeasuredWindow, "kind">): boolean =>
   kind === "load" || kind === "unload";

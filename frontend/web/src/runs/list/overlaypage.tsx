@@ -7,7 +7,7 @@ import { Legend, useHidden } from "../../core/plots/legend";
 import {
   describeTimeChart,
   spanWithin,
-  useStillChart,
+  useStaticChart,
   wholeOf,
 } from "../../core/plots/staticchart";
 import { text } from "../../core/text/en";
@@ -16,15 +16,15 @@ import { drawBands, drawEdges, drawOutside, drawWorst } from "./drawnverdict";
 import {
   CHANNELS,
   nameCurve,
-  type Overlaid,
   type OverlayChannel,
-  readOverlaid,
+  type OverlayCurve,
+  readCurves,
   TITLES,
-} from "./overlaid";
+} from "./overlaycurves";
 import { OverlayTable } from "./overlaytable";
 import { PlaceLink } from "./place";
 import { attempt } from "./problem";
-import { type Judged, listBands, listJudged } from "./verdict";
+import { listAssessments, listBands, type RunAssessment } from "./verdict";
 import { VerdictPanel } from "./verdictpanel";
 
 const words = text.overlay;
@@ -36,8 +36,8 @@ const TIME_AXIS_PX = 26;
 
 interface PlotProps {
   channel: OverlayChannel;
-  curves: readonly Overlaid[];
-  judged: readonly Judged[];
+  curves: readonly OverlayCurve[];
+  judged: readonly RunAssessment[];
   view: ReturnType<typeof spanWithin>;
   hidden: ReadonlySignal<ReadonlySet<string>>;
 }
@@ -45,7 +45,7 @@ interface PlotProps {
 function describeChart({ channel, curves, judged, view, hidden }: PlotProps) {
   const bands = listBands(curves, judged, channel);
   const listShown = (plot: uPlot) =>
-    listJudged(curves, judged).filter(
+    listAssessments(curves, judged).filter(
       (one) => one.channel === channel && plot.series[curves.indexOf(one.curve) + 1]?.show === true,
     );
   const tables = curves.map(
@@ -77,7 +77,7 @@ function describeChart({ channel, curves, judged, view, hidden }: PlotProps) {
 function OverlayPlot(props: PlotProps) {
   const { channel, curves, judged, view } = props;
   const { title, unit } = TITLES[channel];
-  const host = useStillChart(useMemo(() => describeChart(props), [channel, curves, judged, view]));
+  const host = useStaticChart(useMemo(() => describeChart(props), [channel, curves, judged, view]));
   return (
     <section class="overlay-plot" aria-label={title}>
       <h3>
@@ -88,20 +88,20 @@ function OverlayPlot(props: PlotProps) {
   );
 }
 
-/** Of what the numbers of a run are that had no load. */
-const beginningOf = ({ window }: Overlaid): string =>
+/** Window of the metrics of a run without a load. */
+const beginningOf = ({ window }: OverlayCurve): string =>
   window?.label ? words.fromChange(window.label) : words.fromStart;
 
-const isMeasuredInPart = ({ startS, changedS }: Overlaid): boolean =>
+const isMeasuredInPart = ({ startS, changedS }: OverlayCurve): boolean =>
   startS !== 0 || changedS !== null;
 
-const measuredOf = ({ startS, changedS, time }: Overlaid): string =>
+const measuredOf = ({ startS, changedS, time }: OverlayCurve): string =>
   words.measured(startS.toFixed(2), (changedS ?? time.at(-1) ?? 0).toFixed(2));
 
-function Remark({ curve }: { curve: Overlaid }) {
+function Remark({ curve }: { curve: OverlayCurve }) {
   return (
     <>
-      {!curve.hasOnset && <small class="unit"> {beginningOf(curve)}</small>}
+      {!curve.startsWithLoad && <small class="unit"> {beginningOf(curve)}</small>}
       {isMeasuredInPart(curve) && <small class="unit"> {measuredOf(curve)}</small>}
     </>
   );
@@ -130,16 +130,16 @@ function OverlayCurves({ curves, judged }: Pick<PlotProps, "curves" | "judged">)
   );
 }
 
-/** Runs over one another, see `chooseAlignment` for where each begins. */
+/** Overlaid runs; `chooseAlignment` selects where each starts. */
 export function OverlayPage({ runs }: { runs: readonly string[] }) {
-  const [curves, setCurves] = useState<readonly Overlaid[] | null>(null);
+  const [curves, setCurves] = useState<readonly OverlayCurve[] | null>(null);
   const [difference, setDifference] = useState<RunDifference | null>(null);
-  const [judged, setJudged] = useState<readonly Judged[]>([]);
+  const [judged, setJudged] = useState<readonly RunAssessment[]>([]);
   const key = runs.join();
   useEffect(() => {
     let isGone = false;
     const [run, ...others] = key.split(",") as [string, ...string[]];
-    void attempt(() => readOverlaid([run, ...others])).then((read) => {
+    void attempt(() => readCurves([run, ...others])).then((read) => {
       if (!isGone) setCurves(read ?? []);
     });
     setDifference(null);

@@ -6,7 +6,7 @@ import { metricsText } from "../../core/text/metrics";
 import { formatError, formatNumber, toDegrees } from "../../core/units";
 import { bestOf } from "../../core/widgets/tables";
 import { describeMeasured, isDisturbed } from "./measured";
-import { areOfOneLength, nameCurve, type Overlaid, whyUnlike } from "./overlaid";
+import { explainDifference, haveEqualLength, nameCurve, type OverlayCurve } from "./overlaycurves";
 
 const words = text.overlay;
 
@@ -58,42 +58,42 @@ export const COLUMNS: readonly Column[] = [
 ];
 
 /**
- * Whose value is clearly the smallest is marked, where like is compared; a run that never came back
- * is no winner.
+ * Marks the clearly smallest value if the runs are comparable; a run without recovery is never
+ * marked.
  */
 export function findBest(
-  curves: readonly Overlaid[],
+  curves: readonly OverlayCurve[],
   { read, isBest }: Column,
   isAlike: boolean,
 ): number {
-  const mayBe = isAlike && (isBest === "always" || (isBest !== null && areOfOneLength(curves)));
+  const mayBe = isAlike && (isBest === "always" || (isBest !== null && haveEqualLength(curves)));
   if (!mayBe) return -1;
   return bestOf(
     curves.map(({ metrics }) => (metrics && read(metrics)) ?? Number.POSITIVE_INFINITY),
   );
 }
 
-/** Named by who controlled in it, where the curve is of several. */
-function windowOf({ window, lane, measuredLane }: Overlaid): string {
+/** Named after its controller, if the curve has several. */
+function windowOf({ window, lane, measuredLane }: OverlayCurve): string {
   return window === null
     ? formatNumber(null)
     : describeMeasured({ ...window, lanes: [measuredLane] }, lane !== measuredLane);
 }
 
 interface OverlayTableProps {
-  curves: readonly Overlaid[];
-  /** Of the settings of the runs; null where it is not known. */
+  curves: readonly OverlayCurve[];
+  /** Difference of the settings of the runs; null if unknown. */
   difference: RunDifference | null;
 }
 
-/** The curves of an overlay in numbers. */
+/** The curves of an overlay as numbers. */
 export function OverlayTable({ curves, difference }: OverlayTableProps) {
-  const why = whyUnlike(curves, difference);
+  const why = explainDifference(curves, difference);
   const columns: MetricsColumn[] = COLUMNS.map((column) => ({
     key: column.name,
     title: (
       <>
-        {column.name} <span class="unit">{column.unit}</span>
+        {column.name}, <span class="unit">{column.unit}</span>
       </>
     ),
     cell: (row) => {
@@ -107,7 +107,7 @@ export function OverlayTable({ curves, difference }: OverlayTableProps) {
     title: words.window,
     hint: words.windowHint[curves[0]?.alignment ?? "window"],
     class: "overlay-window",
-    cell: (row) => windowOf(curves[row] as Overlaid),
+    cell: (row) => windowOf(curves[row] as OverlayCurve),
   };
   return (
     // biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls is reached by keyboard
@@ -118,7 +118,7 @@ export function OverlayTable({ curves, difference }: OverlayTableProps) {
           <span>
             {words.table}
             {why !== "" && <small class="unit"> {words.noBest(why)}</small>}
-            {why === "" && !areOfOneLength(curves) && (
+            {why === "" && !haveEqualLength(curves) && (
               <small class="unit"> {words.noBestRms}</small>
             )}
           </span>

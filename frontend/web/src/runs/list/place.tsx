@@ -2,8 +2,8 @@
 import { signal } from "@preact/signals";
 import type { ComponentChildren } from "preact";
 
-/** What of a study is looked at: axes, metric, brush, each by its name in the address. */
-type Look = Readonly<Record<string, string>>;
+/** View of a study: axes, metric, brush, each by its name in the address. */
+type StudyView = Readonly<Record<string, string>>;
 
 export type Place =
   | { kind: "lab" }
@@ -12,7 +12,7 @@ export type Place =
   | { kind: "ranking" }
   | { kind: "leaderboard"; entry: string }
   | { kind: "grades" }
-  | { kind: "studies"; study: string; look: Look }
+  | { kind: "studies"; study: string; look: StudyView }
   | { kind: "falsifier"; search: string; scenario: string; laws: readonly string[] }
   | { kind: "list" }
   | { kind: "run"; run: string; timeS: number }
@@ -34,8 +34,8 @@ export type RunsPlace = Exclude<
   }
 >;
 
-const LOOK = ["sx", "sy", "tx", "ty", "metric", "law", "brush"] as const;
-const SEARCH = ["falsifier", "scenario", "laws"] as const;
+const STUDY_VIEW_PARTS = ["sx", "sy", "tx", "ty", "metric", "law", "brush"] as const;
+const SEARCH_PARTS = ["falsifier", "scenario", "laws"] as const;
 const PARTS = [
   "learn",
   "actuators",
@@ -47,17 +47,17 @@ const PARTS = [
   "t",
   "overlay",
   "studies",
-  ...LOOK,
-  ...SEARCH,
+  ...STUDY_VIEW_PARTS,
+  ...SEARCH_PARTS,
 ] as const;
-const EVERY = "all";
+const ALL = "all";
 const SEPARATOR = ",";
 const STEP_SEPARATOR = "/";
 
-const splitNames = (said: string | null): string[] =>
-  (said ?? "").split(SEPARATOR).filter((name) => name !== "");
+const splitNames = (text: string | null): string[] =>
+  (text ?? "").split(SEPARATOR).filter((name) => name !== "");
 
-/** Reads a query such as "?run=20260102-030405-9f8e7d6c&t=12.3". */
+/** Read a query such as "?run=20260102-030405-9f8e7d6c&t=12.3". */
 export function readPlace(query: string): Place {
   const parts = new URLSearchParams(query);
   const run = parts.get("run");
@@ -69,26 +69,26 @@ export function readPlace(query: string): Place {
   if (runs.length > 0) return { kind: "overlay", runs };
   const learn = parts.get("learn");
   if (learn !== null) {
-    const [exercise = "", step = ""] = learn === EVERY ? [] : learn.split(STEP_SEPARATOR);
+    const [exercise = "", step = ""] = learn === ALL ? [] : learn.split(STEP_SEPARATOR);
     return { kind: "learn", exercise, step };
   }
   const actuator = parts.get("actuators");
-  if (actuator !== null) return { kind: "actuators", actuator: actuator === EVERY ? "" : actuator };
+  if (actuator !== null) return { kind: "actuators", actuator: actuator === ALL ? "" : actuator };
   if (parts.has("ranking")) return { kind: "ranking" };
   if (parts.has("grades")) return { kind: "grades" };
   const entry = parts.get("leaderboard");
-  if (entry !== null) return { kind: "leaderboard", entry: entry === EVERY ? "" : entry };
+  if (entry !== null) return { kind: "leaderboard", entry: entry === ALL ? "" : entry };
   const study = parts.get("studies");
   if (study !== null) {
-    const said = LOOK.map((part): [string, string] => [part, parts.get(part) ?? ""]);
-    const look = Object.fromEntries(said.filter(([, value]) => value !== ""));
-    return { kind: "studies", study: study === EVERY ? "" : study, look };
+    const entries = STUDY_VIEW_PARTS.map((part): [string, string] => [part, parts.get(part) ?? ""]);
+    const look = Object.fromEntries(entries.filter(([, value]) => value !== ""));
+    return { kind: "studies", study: study === ALL ? "" : study, look };
   }
   const search = parts.get("falsifier");
   if (search !== null) {
     return {
       kind: "falsifier",
-      search: search === EVERY ? "" : search,
+      search: search === ALL ? "" : search,
       scenario: parts.get("scenario") ?? "",
       laws: splitNames(parts.get("laws")),
     };
@@ -96,24 +96,24 @@ export function readPlace(query: string): Place {
   return { kind: parts.has("runs") ? "list" : "lab" };
 }
 
-/** The query of a place; what else the address says stays. */
+/** The query of a place; other parameters of the address stay. */
 export function writePlace(place: Place, query: string): string {
   const parts = new URLSearchParams(query);
   for (const part of PARTS) parts.delete(part);
   if (place.kind === "learn") {
     const named = [place.exercise, place.step].filter((part) => part !== "");
-    parts.set("learn", named.join(STEP_SEPARATOR) || EVERY);
+    parts.set("learn", named.join(STEP_SEPARATOR) || ALL);
   }
-  if (place.kind === "actuators") parts.set("actuators", place.actuator || EVERY);
+  if (place.kind === "actuators") parts.set("actuators", place.actuator || ALL);
   if (place.kind === "ranking") parts.set("ranking", "all");
-  if (place.kind === "grades") parts.set("grades", EVERY);
-  if (place.kind === "leaderboard") parts.set("leaderboard", place.entry || EVERY);
+  if (place.kind === "grades") parts.set("grades", ALL);
+  if (place.kind === "leaderboard") parts.set("leaderboard", place.entry || ALL);
   if (place.kind === "studies") {
-    parts.set("studies", place.study || EVERY);
-    for (const part of LOOK) if (place.look[part]) parts.set(part, place.look[part]);
+    parts.set("studies", place.study || ALL);
+    for (const part of STUDY_VIEW_PARTS) if (place.look[part]) parts.set(part, place.look[part]);
   }
   if (place.kind === "falsifier") {
-    parts.set("falsifier", place.search || EVERY);
+    parts.set("falsifier", place.search || ALL);
     if (place.scenario !== "") parts.set("scenario", place.scenario);
     if (place.laws.length > 0) parts.set("laws", place.laws.join(SEPARATOR));
   }
@@ -127,11 +127,11 @@ export function writePlace(place: Place, query: string): string {
   return text === "" ? "" : `?${text}`;
 }
 
-export const isOfRuns = (at: Place): at is RunsPlace =>
+export const isRunsPlace = (at: Place): at is RunsPlace =>
   at.kind === "list" || at.kind === "run" || at.kind === "overlay";
 
 /** The live session is shown: alone, or next to an exercise. */
-export const isOfLab = (at: Place): boolean =>
+export const isLabShown = (at: Place): boolean =>
   at.kind === "lab" || (at.kind === "learn" && at.exercise !== "");
 
 export const place = signal<Place>(readPlace(location.search));
@@ -144,33 +144,36 @@ export function goTo(next: Place): void {
   place.value = next;
 }
 
-/** Puts the moment into the address, so that the address is a link to it. */
-export function keepMoment(run: string, timeS: number): void {
+/** Store the moment in the address, so that the address is a link to it. */
+export function storeMoment(run: string, timeS: number): void {
   const now = place.peek();
   if (now.kind !== "run" || now.run !== run) return;
   history.replaceState(null, "", linkTo({ kind: "run", run, timeS }));
 }
 
-/** Puts what is looked at into the address, so that the address is a link to it. */
-export function keepLook(look: Look): void {
+/** Store the study and its view in the address, so that the address is a link to it. */
+export function storeStudyView(study: string, look: StudyView): void {
   const now = place.peek();
   if (now.kind !== "studies") return;
-  const next = { ...now, look };
+  const next = { ...now, study, look };
   history.replaceState(null, "", linkTo(next));
   place.value = next;
 }
 
-/** Writes the laws of a scenario into the address. */
-export function keepLaws(laws: readonly string[]): void {
+/** Writes a scenario, or a search, with its laws into the address. */
+export function storeLaws(
+  shown: { search: string; scenario: string },
+  laws: readonly string[],
+): void {
   const now = place.peek();
   if (now.kind !== "falsifier") return;
-  const next = { ...now, laws };
+  const next = { ...now, ...shown, laws };
   history.replaceState(null, "", linkTo(next));
   place.value = next;
 }
 
 export function toggleRuns(): void {
-  goTo({ kind: isOfRuns(place.peek()) ? "lab" : "list" });
+  goTo({ kind: isRunsPlace(place.peek()) ? "lab" : "list" });
 }
 
 export function followHistory(): void {
@@ -192,7 +195,7 @@ interface PlaceLinkProps {
   children: ComponentChildren;
 }
 
-/** A true link, which a new tab takes too; a plain click stays on the page. */
+/** A real link, which can be opened in a new tab; a plain click stays on the page. */
 export function PlaceLink({ to, isHere, shortcut, onGo, children, ...rest }: PlaceLinkProps) {
   return (
     <a

@@ -1,16 +1,16 @@
-/** What a call about runs came to: done, or why not, in words. */
+/** Result of a request about runs: done, or the reason of a rejection, as text. */
 import { signal } from "@preact/signals";
 import { LockedError, UnansweredError } from "../../core/api/errors";
-import { learnOutcome } from "../../core/api/outcome";
+import { awaitOutcome } from "../../core/api/outcome";
 import { fetchFile } from "../../core/api/runs";
 import { explain } from "../../core/state/actions";
 import { phase } from "../../core/state/session";
 import { text } from "../../core/text/en";
 
-/** The last refusal; the next call takes its place. */
+/** The last rejection; cleared by the next request. */
 export const runsProblem = signal("");
 
-/** The answer, or null where the call was refused; then the page says why. */
+/** The answer, or null if the request was rejected; then the page shows the reason. */
 export async function attempt<T>(request: () => Promise<T>): Promise<T | null> {
   runsProblem.value = "";
   try {
@@ -22,38 +22,38 @@ export async function attempt<T>(request: () => Promise<T>): Promise<T | null> {
   }
 }
 
-/** Of a lost answer outcome of the request, as the server says; else why it was refused. */
+/** For a lost answer the outcome that the server reports; otherwise the reason of the rejection. */
 async function describeOutcome(error: unknown): Promise<string> {
   if (!(error instanceof UnansweredError) || error.request === null) return explain(error);
   try {
-    await learnOutcome(error);
+    await awaitOutcome(error);
     return text.connection.doneUnseen;
   } catch (outcome) {
     return explain(outcome);
   }
 }
 
-// A file that the server works on for long before it can be saved: its progress, and the result.
+// A file that the server prepares for a long time: its progress, and the result.
 
-interface Making {
+interface FileExport {
   run: string;
   stage: "making" | "saved" | "failed";
-  /** Why it failed. */
+  /** Reason of the failure. */
   message: string;
 }
 
-/** So long a browser may take to begin with the file. */
-const KEPT_MS = 60_000;
+/** Maximum time until a browser starts to save the file. */
+const URL_LIFETIME_MS = 60_000;
 
-export const making = signal<Making | null>(null);
+export const fileExport = signal<FileExport | null>(null);
 
-/** Fetches the file, and gives it to the browser to save; one at a time. */
-export async function makeFile(run: string, path: string): Promise<void> {
-  if (making.peek()?.stage === "making") return;
-  making.value = { run, stage: "making", message: "" };
+/** Download the file and save it in the browser; one at a time. */
+export async function exportFile(run: string, path: string): Promise<void> {
+  if (fileExport.peek()?.stage === "making") return;
+  fileExport.value = { run, stage: "making", message: "" };
   const file = await attempt(() => fetchFile(path));
   if (file === null) {
-    making.value = { run, stage: "failed", message: runsProblem.peek() };
+    fileExport.value = { run, stage: "failed", message: runsProblem.peek() };
     runsProblem.value = "";
     return;
   }
@@ -61,6 +61,6 @@ export async function makeFile(run: string, path: string): Promise<void> {
   link.href = URL.createObjectURL(file.content);
   link.download = file.name;
   link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), KEPT_MS);
-  making.value = { run, stage: "saved", message: "" };
+  setTimeout(() => URL.revokeObjectURL(link.href), URL_LIFETIME_MS);
+  fileExport.value = { run, stage: "saved", message: "" };
 }

@@ -9,14 +9,14 @@ interface ReplayFrameProps {
   /** Address of its page. */
   source: string;
   name: string;
-  /** Where the replay stands when it opens, s after the record's first sample. */
+  /** Initial position of the replay, s after the record's first sample. */
   startS: number;
   onMoment: (timeS: number) => void;
 }
 
 const ASK_MS = 200;
 
-/** The replay has keys of its own; only the quick stop goes through. */
+/** The replay has its own keys; only the quick stop is forwarded. */
 function passStop(event: KeyboardEvent): void {
   if (event.key !== "Escape" || !event.shiftKey) return;
   event.preventDefault();
@@ -24,7 +24,7 @@ function passStop(event: KeyboardEvent): void {
   void pressStop();
 }
 
-/** What the server said in place of a replay, as where too many wait; null for a replay. */
+/** Message of the server instead of a replay, for example if too many wait; null for a replay. */
 function readRefusal(shown: Document | null): string | null {
   if (shown === null) return text.connection.unreachable;
   if (shown.contentType === "text/html") return null;
@@ -35,7 +35,7 @@ function readRefusal(shown: Document | null): string | null {
   }
 }
 
-/** The replay page of a run; it takes the theme of this page as it stands. */
+/** The replay page of a run, in the present theme. */
 export function ReplayFrame({ source, name, startS, onMoment }: ReplayFrameProps) {
   const frame = useRef<HTMLIFrameElement>(null);
   const moment = useRef(startS);

@@ -1,38 +1,38 @@
 import { useEffect, useState } from "preact/hooks";
 import type { RunSummary } from "../../core/api/types";
-import { markOf } from "../../core/state/plant";
+import { plantKindOfRun } from "../../core/state/plant";
 import { text } from "../../core/text/en";
 import { PlantMark } from "../../core/widgets/plantmark";
 import { COLUMNS } from "./columns";
-import { chosen, MAX_CHOSEN, putIntoTrash, takeBack, toggleChosen } from "./list";
-import { excerpt, Marked, searchedWords } from "./marked";
+import { excerpt, Highlighted, searchedWords } from "./highlight";
+import { MAX_SELECTED, moveToTrash, restoreFromTrash, selectedRuns, toggleSelected } from "./list";
 import { OriginLink } from "./origin";
 import { PlaceLink } from "./place";
-import { type Glance, keepGlance, Sparkline } from "./sparkline";
+import { type RunOverview, readOverview, Sparkline } from "./sparkline";
 
 const words = text.runs;
 
-/** Null until it is read, and where the run cannot be read. */
-function useGlance({ id, ticks }: RunSummary): Glance | null {
-  const [glance, setGlance] = useState<Glance | null>(null);
+/** Null until it is read, and if the run cannot be read. */
+function useOverview({ id, ticks }: RunSummary): RunOverview | null {
+  const [overview, setOverview] = useState<RunOverview | null>(null);
   useEffect(() => {
-    let isGone = false;
-    const take = (read: Glance | null) => {
-      if (!isGone) setGlance(read);
+    let isMissing = false;
+    const take = (read: RunOverview | null) => {
+      if (!isMissing) setOverview(read);
     };
-    if (ticks > 0) keepGlance(id, ticks).then(take, () => take(null));
+    if (ticks > 0) readOverview(id, ticks).then(take, () => take(null));
     return () => {
-      isGone = true;
+      isMissing = true;
     };
   }, [id, ticks]);
-  return glance;
+  return overview;
 }
 
 function State({ run }: { run: RunSummary }) {
   if (run.fault !== null) {
     return (
       <strong class="run-state is-fault" title={run.fault.message}>
-        ▲ <Marked>{run.fault.label}</Marked>
+        ▲ <Highlighted>{run.fault.label}</Highlighted>
       </strong>
     );
   }
@@ -46,15 +46,15 @@ function State({ run }: { run: RunSummary }) {
 }
 
 function Choose({ run }: { run: RunSummary }) {
-  const isChosen = chosen.value.includes(run.id);
+  const isChosen = selectedRuns.value.includes(run.id);
   return (
     <input
       type="checkbox"
       class="run-choose"
       aria-label={words.choose(run.title)}
       checked={isChosen}
-      disabled={run.ticks === 0 || (!isChosen && chosen.value.length >= MAX_CHOSEN)}
-      onChange={() => toggleChosen(run.id)}
+      disabled={run.ticks === 0 || (!isChosen && selectedRuns.value.length >= MAX_SELECTED)}
+      onChange={() => toggleSelected(run.id)}
     />
   );
 }
@@ -67,7 +67,7 @@ function Remove({ run }: { run: RunSummary }) {
       aria-label={words.removeThis(run.title)}
       title={words.remove}
       disabled={run.state === "recording"}
-      onClick={() => void putIntoTrash(run.id)}
+      onClick={() => void moveToTrash(run.id)}
     >
       <svg viewBox="0 0 16 16" aria-hidden="true">
         <path d="M6 1h4l.6 1.2H14v1.5H2V2.2h3.4zM3 5h10l-.7 10H3.7zm3 1.800l.3 6.400h1.200l-.2-6.400zm2.700 0l-.2 6.400h1.200l.3-6.400z" />
@@ -76,7 +76,7 @@ function Remove({ run }: { run: RunSummary }) {
   );
 }
 
-/** What the run is called, and what people wrote to it, as far as there is room. */
+/** The name of the run, and its tags and notes if they fit. */
 function Name({ run }: { run: RunSummary }) {
   const notes = [run.notes, run.message, run.note].filter((note) => note !== "").join(" · ");
   return (
@@ -88,20 +88,20 @@ function Name({ run }: { run: RunSummary }) {
             class={run.name === "" ? "is-own" : "is-given"}
             title={run.title}
           >
-            <Marked>{run.title}</Marked>
+            <Highlighted>{run.title}</Highlighted>
           </PlaceLink>
         ) : (
           <span title={run.title}>
-            <Marked>{run.title}</Marked>
+            <Highlighted>{run.title}</Highlighted>
           </span>
         )}
         <State run={run} />
-        <PlantMark kind={markOf(run.plant)} />
+        <PlantMark kind={plantKindOfRun(run.plant)} />
         {run.tags.length > 0 && (
           <span class="run-tags" title={run.tags.join(", ")}>
             {run.tags.map((tag) => (
               <span key={tag} class="tag">
-                <Marked>{tag}</Marked>
+                <Highlighted>{tag}</Highlighted>
               </span>
             ))}
           </span>
@@ -109,7 +109,7 @@ function Name({ run }: { run: RunSummary }) {
         {run.branch_of && <OriginLink origin={run.branch_of} />}
         {notes !== "" && (
           <span class="hint run-notes" title={notes}>
-            <Marked>{excerpt(notes, searchedWords.value)}</Marked>
+            <Highlighted>{excerpt(notes, searchedWords.value)}</Highlighted>
           </span>
         )}
       </div>
@@ -117,16 +117,16 @@ function Name({ run }: { run: RunSummary }) {
   );
 }
 
-/** A run in the table: what it is called, how its error went, how it was set, how good it was. */
+/** A run in the table: name, error curve, settings, metrics. */
 export function RunRow({ run }: { run: RunSummary }) {
   const isDeleted = run.deleted !== null;
-  const glance = useGlance(run);
+  const overview = useOverview(run);
   return (
     <tr class={`run-row ${run.name === "" ? "is-auto" : ""}`}>
       <td class="run-pick">{!isDeleted && <Choose run={run} />}</td>
       <Name run={run} />
       <td class="run-spark">
-        <Sparkline glance={glance} />
+        <Sparkline overview={overview} />
       </td>
       {COLUMNS.map(({ key, label, isNumber, isInName, show, hintOf }) => {
         const value = show(run);
@@ -153,7 +153,7 @@ export function RunRow({ run }: { run: RunSummary }) {
             type="button"
             class="button is-small"
             aria-label={words.restoreThis(run.title)}
-            onClick={() => void takeBack(run.id)}
+            onClick={() => void restoreFromTrash(run.id)}
           >
             {words.restore}
           </button>

@@ -5,7 +5,7 @@ import { text } from "../../core/text/en";
 import { RunActions } from "./actions";
 import { patchRun } from "./list";
 import { OriginLink } from "./origin";
-import { keepMoment, PlaceLink } from "./place";
+import { PlaceLink, storeMoment } from "./place";
 import { attempt } from "./problem";
 import { ReplayFrame } from "./replayframe";
 import { Tags } from "./tags";
@@ -19,11 +19,11 @@ interface WrittenProps {
   class: string;
   value: string;
   longest: number;
-  /** Whether it was kept; what was not stands there still. */
+  /** Returns whether it was saved; an unsaved draft stays in the field. */
   onWrite: (value: string) => Promise<boolean>;
 }
 
-/** A line of text, wrapped where it is long, that is kept when it is left, or with Enter; Escape takes the draft back. */
+/** A text field that saves when it loses the focus or on Enter; Escape discards the draft. */
 function Written({ label, hint, value, longest, onWrite, ...rest }: WrittenProps) {
   const [draft, setDraft] = useState<string | null>(null);
   return (
@@ -56,7 +56,7 @@ interface AboutProps {
 }
 
 function About({ run, onChanged }: AboutProps) {
-  const readAgain = () => void readRun(run.id).then(onChanged, () => {}); // why, stands there already
+  const readAgain = () => void readRun(run.id).then(onChanged, () => {}); // error is shown
   const write = async (patch: { name: string } | { notes: string }) => {
     const answer = await patchRun(run, patch);
     if (answer) onChanged(answer);
@@ -100,7 +100,7 @@ function About({ run, onChanged }: AboutProps) {
   );
 }
 
-/** In place of a run that cannot be read; why, says the line above. */
+/** Shown instead of a run that cannot be read; the line above contains the reason. */
 function Missing() {
   return (
     <div class="empty">
@@ -115,7 +115,7 @@ function Missing() {
 
 const SETTLED = 2;
 
-/** The moment of the replay; the address follows it once it rests. */
+/** Position of the replay; the address is updated when it rests. */
 function useMoment(run: string, startS: number) {
   const [moment, setMoment] = useState(startS);
   const resting = useRef({ timeS: startS, count: 0 });
@@ -125,14 +125,14 @@ function useMoment(run: string, startS: number) {
       current.count = current.timeS === timeS ? current.count + 1 : 0;
       current.timeS = timeS;
       setMoment(timeS);
-      if (current.count === SETTLED) keepMoment(run, timeS);
+      if (current.count === SETTLED) storeMoment(run, timeS);
     },
     [run],
   );
   return { moment, follow };
 }
 
-/** One run: replayed, named, branched, exported. */
+/** One run: replay, rename, branch, export. */
 export function RunPage({ run: id, timeS }: { run: string; timeS: number }) {
   const [run, setRun] = useState<RunDetails | null>(null);
   const [isMissing, setMissing] = useState(false);

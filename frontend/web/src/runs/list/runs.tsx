@@ -1,7 +1,7 @@
 import { useEffect } from "preact/hooks";
 import { text } from "../../core/text/en";
 import { ErrorLine } from "../../core/widgets/form";
-import { deleted, takeBack } from "./list";
+import { deleted, restoreFromTrash } from "./list";
 import { ListPage } from "./listpage";
 import { OverlayPage } from "./overlaypage";
 import type { RunsPlace } from "./place";
@@ -22,7 +22,7 @@ function Undo() {
       {run && (
         <>
           <span>{text.runs.deleted(run.title)}</span>
-          <button type="button" class="button" onClick={() => void takeBack(run.id)}>
+          <button type="button" class="button" onClick={() => void restoreFromTrash(run.id)}>
             {text.runs.undo}
           </button>
           <button
@@ -41,7 +41,7 @@ function Undo() {
   );
 }
 
-/** The recorded runs, in the place of the lab. */
+/** The recorded runs, instead of the lab. */
 export function Runs({ at }: { at: RunsPlace }) {
   useEffect(() => {
     runsProblem.value = "";

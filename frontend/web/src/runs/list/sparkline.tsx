@@ -1,4 +1,4 @@
-/** The position error of a run, small: one path a lane, on one scale. */
+/** The position error of a run as a small plot: one path per lane, with a common scale. */
 import { readRun, readSamples } from "../../core/api/runs";
 import type { RunDetails, RunSamples, StreamedName } from "../../core/api/types";
 import { lineStyleOf } from "../../core/plots/linestyles";
@@ -10,20 +10,20 @@ const HEIGHT = 44;
 const POINTS = 240;
 const MARGIN = 2;
 const CHANNEL: StreamedName = "position_error_rad";
-/** A smaller error than this fills no plot, rad. */
-const SMALLEST = 1e-4;
+/** Minimum range of the plot, rad. */
+const MIN_RANGE = 1e-4;
 
 interface Spark {
-  /** One a segment of a lane, in the line style of who controlled it. */
+  /** One per segment of a lane, in the line style of its controller. */
   paths: { lineStyle: number; path: string }[];
-  /** Height of zero error. */
+  /** Vertical position of zero error. */
   zero: number;
   /** Largest error of any lane, rad. */
   peak: number;
 }
 
-/** A run at a glance: its curves, and who controlled its lanes. */
-export interface Glance extends Spark {
+/** Overview of a run: its curves, and the controllers of its lanes. */
+export interface RunOverview extends Spark {
   lanes: string[];
   segments: Segments;
 }
@@ -38,8 +38,8 @@ export function drawSpark(
   const curves = Object.values(lanes).map((channels) => channels[CHANNEL] ?? []);
   const values = curves.flat().filter((value) => value !== null);
   const peak = values.reduce((most, value) => Math.max(most, Math.abs(value)), 0);
-  const low = Math.min(-SMALLEST, ...values.map((value) => Math.min(0, value)));
-  const high = Math.max(SMALLEST, ...values.map((value) => Math.max(0, value)));
+  const low = Math.min(-MIN_RANGE, ...values.map((value) => Math.min(0, value)));
+  const high = Math.max(MIN_RANGE, ...values.map((value) => Math.max(0, value)));
   const first = time[0] ?? 0;
   const span = Math.max((time.at(-1) ?? 1) - first, 1e-9);
   const across = (seconds: number) => ((seconds - first) / span) * WIDTH;
@@ -68,32 +68,32 @@ export function drawSpark(
   return { paths, zero: down(0), peak };
 }
 
-const MAX_KEPT = 200;
-const kept = new Map<string, Promise<Glance>>();
+const MAX_CACHED = 200;
+const cache = new Map<string, Promise<RunOverview>>();
 
-async function readGlance(run: string): Promise<Glance> {
+async function fetchOverview(run: string): Promise<RunOverview> {
   const [details, samples] = await Promise.all([readRun(run), readSamples(run, [CHANNEL], POINTS)]);
   const { lane_names: lanes, segments } = details;
   return { ...drawSpark(samples, segments), lanes, segments };
 }
 
-/** Read once a run and length; a run that is still recorded grows. */
-export function keepGlance(run: string, ticks: number): Promise<Glance> {
+/** Read once per run and length; a run that is being recorded grows. */
+export function readOverview(run: string, ticks: number): Promise<RunOverview> {
   const key = `${run}.${ticks}`;
-  const known = kept.get(key);
-  if (known) return known;
-  const made = readGlance(run);
-  made.catch(() => kept.delete(key));
-  kept.set(key, made);
-  const oldest = kept.keys().next().value;
-  if (kept.size > MAX_KEPT && oldest !== undefined) kept.delete(oldest);
-  return made;
+  const cached = cache.get(key);
+  if (cached) return cached;
+  const request = fetchOverview(run);
+  request.catch(() => cache.delete(key));
+  cache.set(key, request);
+  const oldest = cache.keys().next().value;
+  if (cache.size > MAX_CACHED && oldest !== undefined) cache.delete(oldest);
+  return request;
 }
 
 /** The position error of every lane over the whole run; nothing until it is read. */
-export function Sparkline({ glance }: { glance: Glance | null }) {
-  const label = glance
-    ? text.runs.sparkline(glance.lanes.join(", "), formatNumber(toDegrees(glance.peak), 2, 3))
+export function Sparkline({ overview }: { overview: RunOverview | null }) {
+  const label = overview
+    ? text.runs.sparkline(overview.lanes.join(", "), formatNumber(toDegrees(overview.peak), 2, 3))
     : text.runs.noSparkline;
   return (
     <svg
@@ -103,8 +103,8 @@ export function Sparkline({ glance }: { glance: Glance | null }) {
       role="img"
       aria-label={label}
     >
-      {glance && <path class="spark-zero" d={`M0 ${glance.zero}H${WIDTH}`} />}
-      {glance?.paths
+      {overview && <path class="spark-zero" d={`M0 ${overview.zero}H${WIDTH}`} />}
+      {overview?.paths
         .map(({ lineStyle: number, path }, index) => {
           const lineStyle = lineStyleOf(number);
           return (

@@ -2,7 +2,7 @@ import type { RunSummary } from "../../core/api/types";
 import { text } from "../../core/text/en";
 import { SortHead } from "../../core/widgets/tables";
 import { COLUMNS, type Column, NAME_SORT } from "./columns";
-import { ask, sort } from "./list";
+import { changeQuery, sort } from "./list";
 import { RunRow } from "./row";
 
 const words = text.runs;
@@ -25,12 +25,12 @@ function Head({ name, hint, sort: column, isDownFirst, isNumber, ...rest }: Head
       column={{ key: column, isDownFirst, class: look }}
       words={{ name, hint }}
       sort={sort.value}
-      onSort={(next) => ask({ sort: next })}
+      onSort={(next) => changeQuery({ sort: next })}
     />
   );
 }
 
-/** A page of runs as a table; narrow, each of them is a card. */
+/** A page of runs as a table; on a narrow screen as cards. */
 export function RunTable({ runs }: { runs: readonly RunSummary[] }) {
   return (
     <table class="surface run-table" aria-label={words.list}>

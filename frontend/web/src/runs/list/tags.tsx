@@ -9,7 +9,7 @@ interface TagsProps {
   onRefused?: () => void;
 }
 
-/** The words by which a run is found, with a place for one more. */
+/** The tags of a run, with a field for a new one. */
 export function Tags({ run, onChanged, onRefused }: TagsProps) {
   const id = useId();
   const [draft, setDraft] = useState<string | null>(null);

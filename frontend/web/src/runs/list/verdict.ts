@@ -1,11 +1,20 @@
-/** Runs of an overlay judged against one of them: within tolerances of value and time, or when not. */
-import { judgeRun } from "../../core/api/runs";
+/**
+ * Runs of an overlay compared with a reference run: within tolerances of value and time, or the
+ * first deviation.
+ */
+import { assessRun } from "../../core/api/runs";
 import type { RunVerdict, VerdictRequest } from "../../core/api/types";
-import { type Alignment, CHANNELS, FACTORS, type Overlaid, type OverlayChannel } from "./overlaid";
+import {
+  type Alignment,
+  CHANNELS,
+  FACTORS,
+  type OverlayChannel,
+  type OverlayCurve,
+} from "./overlaycurves";
 
 const POINTS = 4000;
 
-/** By how much a channel may differ: in its unit on screen, in per cent, in seconds. */
+/** Tolerance of a channel: in its unit on screen, in percent, in seconds. */
 export interface Bounds {
   absolute: number;
   relativePercent: number;
@@ -13,28 +22,28 @@ export interface Bounds {
 }
 export type Tolerances = Readonly<Record<OverlayChannel, Bounds>>;
 
-export interface Judged {
+export interface RunAssessment {
   run: string;
   reference: string;
   verdict: RunVerdict;
 }
 
-/** A curve that left its band, or did not, in the overlay's time and units. */
-export interface JudgedCurve {
-  curve: Overlaid;
+/** Result of a curve in the overlay's time and units. */
+export interface CurveAssessment {
+  curve: OverlayCurve;
   channel: OverlayChannel;
-  isHeld: boolean;
+  isWithin: boolean;
   worstS: number;
   value: number | null;
   low: number | null;
   high: number | null;
-  /** From when to when. */
+  /** Start and end. */
   outside: readonly (readonly [number, number])[];
   outsideS: number;
 }
 
-/** What a channel may be. */
-export interface BandShown {
+/** Tolerances of a channel. */
+export interface ToleranceBand {
   time: readonly number[];
   low: readonly (number | null)[];
   high: readonly (number | null)[];
@@ -58,25 +67,28 @@ export const buildRequest = (
   points: POINTS,
 });
 
-/** Every other run against the reference, laid over it as in the plots. */
-export function judgeRuns(
+/** Every other run against the reference, aligned as in the plots. */
+export function assessRuns(
   runs: readonly string[],
   reference: string,
   tolerances: Tolerances,
   align: Alignment,
-): Promise<Judged[]> {
-  const wanted = buildRequest(reference, tolerances, align);
+): Promise<RunAssessment[]> {
+  const request = buildRequest(reference, tolerances, align);
   const others = runs.filter((run) => run !== reference);
   return Promise.all(
-    others.map(async (run) => ({ run, reference, verdict: await judgeRun(run, wanted) })),
+    others.map(async (run) => ({ run, reference, verdict: await assessRun(run, request) })),
   );
 }
 
 const scale = (value: number | null, channel: OverlayChannel): number | null =>
   value === null ? null : value * FACTORS[channel];
 
-export function listJudged(curves: readonly Overlaid[], judged: readonly Judged[]): JudgedCurve[] {
-  return judged.flatMap(({ run, verdict }) =>
+export function listAssessments(
+  curves: readonly OverlayCurve[],
+  assessments: readonly RunAssessment[],
+): CurveAssessment[] {
+  return assessments.flatMap(({ run, verdict }) =>
     verdict.channels.flatMap((one) => {
       const curve = curves.find((each) => each.run === run && each.laneId === one.lane);
       const channel = CHANNELS.find((name) => name === one.channel);
@@ -84,7 +96,7 @@ export function listJudged(curves: readonly Overlaid[], judged: readonly Judged[
       return {
         curve,
         channel,
-        isHeld: one.held,
+        isWithin: one.held,
         worstS: one.worst_s - curve.zeroS,
         value: scale(one.value, channel),
         low: scale(one.low, channel),
@@ -96,15 +108,15 @@ export function listJudged(curves: readonly Overlaid[], judged: readonly Judged[
   );
 }
 
-/** Of each lane of the reference the longest band that was asked for: they differ in length alone. */
+/** The longest band of each lane of the reference: the bands differ only in length. */
 export function listBands(
-  curves: readonly Overlaid[],
-  judged: readonly Judged[],
+  curves: readonly OverlayCurve[],
+  assessments: readonly RunAssessment[],
   channel: OverlayChannel,
-): BandShown[] {
-  const zero = curves.find(({ run }) => run === judged[0]?.reference)?.zeroS ?? 0;
-  const longest = new Map<string, BandShown>();
-  for (const { verdict } of judged) {
+): ToleranceBand[] {
+  const zero = curves.find(({ run }) => run === assessments[0]?.reference)?.zeroS ?? 0;
+  const longest = new Map<string, ToleranceBand>();
+  for (const { verdict } of assessments) {
     for (const [lane, band] of Object.entries(verdict.bands[channel] ?? {})) {
       const last = band.time_s.at(-1) ?? 0;
       if (last - zero <= (longest.get(lane)?.time.at(-1) ?? Number.NEGATIVE_INFINITY)) continue;

@@ -1,9 +1,9 @@
 import { useState } from "preact/hooks";
 import { text } from "../../core/text/en";
 import { NumberBox, SelectField } from "../../core/widgets/form";
-import { CHANNELS, type Overlaid, type OverlayChannel, TITLES } from "./overlaid";
+import { CHANNELS, type OverlayChannel, type OverlayCurve, TITLES } from "./overlaycurves";
 import { attempt } from "./problem";
-import { type Bounds, type Judged, judgeRuns, type Tolerances } from "./verdict";
+import { assessRuns, type Bounds, type RunAssessment, type Tolerances } from "./verdict";
 import { VerdictTable } from "./verdicttable";
 
 const words = text.verdict;
@@ -49,12 +49,12 @@ function Fields({ channel, typed, onType }: FieldsProps) {
 }
 
 interface VerdictPanelProps {
-  curves: readonly Overlaid[];
-  judged: readonly Judged[];
-  onJudged: (judged: readonly Judged[]) => void;
+  curves: readonly OverlayCurve[];
+  judged: readonly RunAssessment[];
+  onJudged: (judged: readonly RunAssessment[]) => void;
 }
 
-/** By how much the other runs may differ from one of them, and whether they do. */
+/** Tolerances for the other runs relative to the reference run, and the verdict. */
 export function VerdictPanel({ curves, judged, onJudged }: VerdictPanelProps) {
   const runs = [...new Map(curves.map(({ run, runName }) => [run, runName]))];
   const [reference, setReference] = useState(runs[0]?.[0] ?? "");
@@ -67,7 +67,7 @@ export function VerdictPanel({ curves, judged, onJudged }: VerdictPanelProps) {
     setIsJudging(true);
     const ids = runs.map(([run]) => run);
     const align = curves[0]?.alignment ?? "window";
-    onJudged((await attempt(() => judgeRuns(ids, reference, tolerances, align))) ?? []);
+    onJudged((await attempt(() => assessRuns(ids, reference, tolerances, align))) ?? []);
     setIsJudging(false);
   };
   const type = (channel: OverlayChannel, field: keyof Bounds, value: string) => {

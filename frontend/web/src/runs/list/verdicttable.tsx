@@ -2,20 +2,23 @@ import { Swatch } from "../../core/plots/legend";
 import { text } from "../../core/text/en";
 import { formatNumber } from "../../core/units";
 import { Table } from "../../core/widgets/tables";
-import { nameCurve, type Overlaid, TITLES } from "./overlaid";
-import { type Judged, type JudgedCurve, listJudged } from "./verdict";
+import { nameCurve, type OverlayCurve, TITLES } from "./overlaycurves";
+import { type CurveAssessment, listAssessments, type RunAssessment } from "./verdict";
 
 const words = text.verdict;
 
-/** How much of a run was compared, and whether there is more. */
-function describeCompared({ run, verdict }: Judged, curves: readonly Overlaid[]): string {
+/** Length of a run that was compared, and whether it is longer. */
+function describeCompared(
+  { run, verdict }: RunAssessment,
+  curves: readonly OverlayCurve[],
+): string {
   const { ticks, own_ticks: own, other_ticks: other, compared_s: seconds } = verdict;
   const name = curves.find((one) => one.run === run)?.runName ?? run;
   const message = words.compared(name, formatNumber(seconds, 4, 3));
   return ticks === own && ticks === other ? `${message}.` : `${message}; ${words.notAll}.`;
 }
 
-function Row({ one }: { one: JudgedCurve }) {
+function Row({ one }: { one: CurveAssessment }) {
   const { title, unit } = TITLES[one.channel];
   const number = (value: number | null) => formatNumber(value, 4, 6);
   return (
@@ -29,27 +32,27 @@ function Row({ one }: { one: JudgedCurve }) {
       <td>
         {title} <span class="unit">{unit}</span>
       </td>
-      <td class={one.isHeld ? "good" : "bad strong"}>
-        <span aria-hidden="true">{one.isHeld ? "✓" : "✗"}</span>{" "}
-        {one.isHeld ? words.held : words.left}
+      <td class={one.isWithin ? "good" : "bad strong"}>
+        <span aria-hidden="true">{one.isWithin ? "✓" : "✗"}</span>{" "}
+        {one.isWithin ? words.held : words.left}
       </td>
       <td>{formatNumber(one.worstS, 4, 3)} s</td>
       <td>{number(one.value)}</td>
       <td>{words.range(number(one.low), number(one.high))}</td>
-      <td>{one.isHeld ? "–" : `${formatNumber(one.outsideS, 4, 3)} s`}</td>
+      <td>{one.isWithin ? "–" : `${formatNumber(one.outsideS, 4, 3)} s`}</td>
     </tr>
   );
 }
 
 interface VerdictTableProps {
-  curves: readonly Overlaid[];
-  judged: readonly Judged[];
+  curves: readonly OverlayCurve[];
+  judged: readonly RunAssessment[];
 }
 
-/** Every channel of every judged curve: held or not, and its worst moment. */
+/** Every channel of every compared curve: passed or not, and its largest deviation. */
 export function VerdictTable({ curves, judged }: VerdictTableProps) {
-  const rows = listJudged(curves, judged);
-  const failed = rows.filter(({ isHeld }) => !isHeld).length;
+  const rows = listAssessments(curves, judged);
+  const failed = rows.filter(({ isWithin: isHeld }) => !isHeld).length;
   const message = failed === 0 ? words.allHeld(rows.length) : words.notHeld(failed, rows.length);
   return (
     <>

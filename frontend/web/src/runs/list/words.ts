@@ -1,4 +1,4 @@
-/** A run in words. */
+/** A run as text. */
 import type { RunDetails } from "../../core/api/types";
 import { describeLaw } from "../../core/state/laws";
 import { text } from "../../core/text/en";
@@ -12,7 +12,7 @@ const DAY = new Intl.DateTimeFormat("en-GB", {
   minute: "2-digit",
 });
 
-/** The reader's own day and time of a moment in UTC. */
+/** A moment in UTC as local date and time. */
 export function formatMoment(iso: string): string {
   const moment = new Date(iso);
   return Number.isNaN(moment.getTime()) ? iso : DAY.format(moment);
@@ -26,7 +26,7 @@ const SHORT = new Intl.DateTimeFormat("en-GB", {
 });
 const SHORT_FOR_MS = 300 * 86_400_000;
 
-/** As `formatMoment`; the year only where it may be doubted. */
+/** As `formatMoment`, with the year only if it is not the present one. */
 export function formatMomentShort(iso: string): string {
   const isRecent = Date.now() - new Date(iso).getTime() < SHORT_FOR_MS;
   return isRecent ? SHORT.format(new Date(iso)) : formatMoment(iso);
@@ -35,11 +35,11 @@ export function formatMomentShort(iso: string): string {
 export function formatDuration(seconds: number): string {
   const rounded = Number(seconds.toFixed(1));
   if (rounded < 60) return text.runs.seconds(rounded);
-  const whole = Math.round(seconds);
-  return text.runs.minutes(Math.floor(whole / 60), whole % 60);
+  const wholeSeconds = Math.round(seconds);
+  return text.runs.minutes(Math.floor(wholeSeconds / 60), wholeSeconds % 60);
 }
 
-/** How long a record is, and from when on of the session, whose time its files and scripts have. */
+/** Length of a record, and its start in session time, which its files and scripts use. */
 export function formatLength(
   run: Pick<RunDetails, "duration_s" | "first_tick" | "period_s">,
 ): string {
@@ -49,7 +49,7 @@ export function formatLength(
     : text.run.lengthFrom(length, (run.first_tick * run.period_s).toFixed(2));
 }
 
-/** A value by which runs are filtered, as it is read. */
+/** Text of a value by which runs are filtered. */
 export function nameValue(filter: Filter, value: string): string {
   switch (filter) {
     case "law":

@@ -8,7 +8,7 @@ const MAX_ENTRIES = 200;
 const isPlain = (value: unknown) => value === null || typeof value !== "object";
 const words = (key: string) => key.replaceAll("_", " ");
 
-/** Any JSON value: plain ones as text, the rest as a list of names and values. */
+/** Any JSON value: simple ones as text, others as a list of names and values. */
 function Value({ value }: { value: unknown }) {
   if (isPlain(value)) return <>{value === null ? about.empty : String(value)}</>;
   if (Array.isArray(value) && value.every(isPlain)) {

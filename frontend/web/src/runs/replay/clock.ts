@@ -1,4 +1,4 @@
-/** The one time of the page, and what part of the run the plots show. */
+/** The time of the page, and the part of the run that the plots show. */
 import { signal } from "@preact/signals";
 
 export const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4] as const;
@@ -9,7 +9,7 @@ interface Range {
 }
 
 const SHORTEST_RANGE_S = 0.05;
-/** Where not every sample is drawn, a plot is at least so many points wide. */
+/** If not every sample is drawn, a plot spans at least this number of points. */
 const MIN_POINTS = 400;
 
 export const timeS = signal(0);
@@ -23,11 +23,11 @@ let playedAt = 0;
 let shortestS = SHORTEST_RANGE_S;
 
 interface Timing {
-  /** The run's last sample. */
+  /** Time of the run's last sample, s. */
   endS: number;
-  /** Between two pictures in 3D. */
+  /** Time between two frames of the 3D view, s. */
   frameS: number;
-  /** Between two points of a curve. */
+  /** Time between two points of a curve, s. */
   pointS: number;
   isEverySample: boolean;
 }
@@ -46,7 +46,7 @@ export function seek(time: number): void {
   follow();
 }
 
-/** Whole frames back or forth, from the frame shown. */
+/** Move by whole frames from the present one. */
 function stepFrames(count: number): void {
   isPlaying.value = false;
   seek((Math.round(timeS.peek() / frameS) + count) * frameS);
@@ -65,7 +65,7 @@ export function showAll(): void {
   range.value = { from: 0, to: Math.max(endS, shortestS) };
 }
 
-export function isWhole({ from, to }: Range): boolean {
+export function isWholeRun({ from, to }: Range): boolean {
   return from <= 0 && to >= endS;
 }
 
@@ -75,14 +75,14 @@ export function showRange(from: number, to: number): void {
   range.value = { from: start, to: start + width };
 }
 
-/** Narrower (factor < 1) or wider, the present time staying where it is. */
+/** Zoom in (factor < 1) or out; the present time keeps its position. */
 export function zoom(factor: number): void {
   const { from, to } = range.peek();
   const time = timeS.peek();
   showRange(time - (time - from) * factor, time + (to - time) * factor);
 }
 
-/** Turns the page when the time leaves the part shown. */
+/** Show the next part if the time leaves the visible one. */
 function follow(): void {
   const { from, to } = range.peek();
   const time = timeS.peek();
@@ -99,18 +99,18 @@ function play(now: number): void {
   else requestAnimationFrame(play);
 }
 
-// Keys, wherever the focus is but in a control that needs them itself.
+// Keys, for any focused element except those that use the key.
 
-const KEEPS_ALL = "select, dialog, input:not([type=range])";
-/** A button that was reached by key; one that was clicked gives the space bar back. */
-const KEEPS_SPACE = "button:focus-visible";
+const USES_ALL_KEYS = "select, dialog, input:not([type=range])";
+/** A button focused by keyboard; after a click Space is a command again. */
+const USES_SPACE = "button:focus-visible";
 
-/** Answers a key; also given to the document inside the 3D view. */
-export function answerKey(event: KeyboardEvent): void {
+/** Handle a key; also registered in the document inside the 3D view. */
+export function handleKey(event: KeyboardEvent): void {
   if (event.ctrlKey || event.metaKey || event.altKey) return;
   const target = event.target as Element | null;
-  if (target?.closest?.(KEEPS_ALL)) return;
-  if (event.key === " " && target?.matches?.(KEEPS_SPACE)) return;
+  if (target?.closest?.(USES_ALL_KEYS)) return;
+  if (event.key === " " && target?.matches?.(USES_SPACE)) return;
   const action = actions[event.key];
   if (action === undefined) return;
   event.preventDefault();

@@ -4,7 +4,7 @@ import type uPlot from "uplot";
 import { drawEventLines, eventsInView, type RunEvent } from "../../core/plots/eventlines";
 import { Legend, useHidden } from "../../core/plots/legend";
 import { palette } from "../../core/plots/linestyles";
-import { describeTimeChart, type TimeChart, useStillChart } from "../../core/plots/staticchart";
+import { describeTimeChart, type TimeChart, useStaticChart } from "../../core/plots/staticchart";
 import { hasOneValue, hasUnnamedTruth } from "../../core/plots/traces";
 import { text } from "../../core/text/replay";
 import { formatNumber } from "../../core/units";
@@ -22,7 +22,7 @@ interface PlotProps {
   isLast: boolean;
 }
 
-/** The chart in its host, and the elements of the legend that have its values. */
+/** The chart in its host element, and the legend elements that show its values. */
 function useChart(props: PlotProps, curves: readonly Curve[], hidden: TimeChart["hidden"]) {
   const { plot, time, events, isFirst, isLast } = props;
   const readings = useRef(new Map<string, HTMLElement>()).current;
@@ -60,7 +60,7 @@ function useChart(props: PlotProps, curves: readonly Curve[], hidden: TimeChart[
       },
     });
   }, [plot, curves, time, events, isFirst, isLast]);
-  return { host: useStillChart(chart), readings };
+  return { host: useStaticChart(chart), readings };
 }
 
 export function Plot(props: PlotProps) {
@@ -104,7 +104,7 @@ export function Plot(props: PlotProps) {
   );
 }
 
-// The present time of the replay on a plot: a line, and the values there.
+// The present time of the replay on a plot: a line, and the values at it.
 
 const LINE = "now";
 
@@ -124,18 +124,18 @@ function placeTimeLine(plot: uPlot): void {
   line.style.translate = `${plot.valToPos(time, "x").toFixed(2)}px`;
 }
 
-/** Value of a curve at the pointer, or else at the present time. */
+/** Value of a curve at the pointer, otherwise at the present time. */
 function readCurve({ data: [time], cursor }: uPlot, values: Float32Array): number {
   const step = (time[1] ?? 1) - (time[0] ?? 0);
   const now = Math.min(Math.round(timeS.peek() / step), time.length - 1);
   return values[cursor.idx ?? now] ?? Number.NaN;
 }
 
-// The names of the run's events, above the first plot.
+// The labels of the run's events, above the first plot.
 
 const LABEL_PX = 11;
 
-/** Names, each where there is room left for it. */
+/** Labels, each if there is space for it. */
 function drawEventLabels(plot: uPlot, events: readonly RunEvent[]): void {
   const { ctx: context, bbox } = plot;
   const gap = 4 * devicePixelRatio;

@@ -1,9 +1,9 @@
 /**
- * The 3D view: viser's own page in a frame, which shares this page's origin, also in a file.
+ * The 3D view: viser's page in a frame of the same origin, also in a file.
  *
- * Its player has no interface to set a time and plays everything again to go back. The frame
- * holds the scene standing still, and this puts into viser's queue of messages what the live lab
- * would send: for any time, the properties that differ from those shown.
+ * viser's player has no interface to set a time, and replays everything to go back. Therefore the
+ * frame contains the static scene, and this module puts the messages of the live lab into viser's
+ * queue: for any time, the properties that differ from those shown.
  */
 import type { Motion, Track } from "./data";
 
@@ -21,7 +21,7 @@ type Value = string | boolean | number[];
 
 const PATIENCE_MS = 30_000;
 
-/** Number of the last key at or before a frame. */
+/** Index of the last key at or before a frame. */
 function findKey(keys: Float32Array, frame: number): number {
   let low = 0;
   let high = keys.length - 1;
@@ -33,7 +33,7 @@ function findKey(keys: Float32Array, frame: number): number {
   return low;
 }
 
-/** A property over time; between two frames next to each other it is interpolated. */
+/** A property over time; interpolated between two adjacent frames. */
 class Property {
   #shown = "";
 
@@ -43,7 +43,7 @@ class Property {
     private readonly values: Float32Array | null,
   ) {}
 
-  /** The message that brings the property to the frame, or null when it is there already. */
+  /** The message that sets the property for the frame, or null if it is already set. */
   messageFor(frame: number): Record<string, unknown> | null {
     const value = this.#read(frame);
     const shown = String(value);
@@ -56,12 +56,12 @@ class Property {
 
   #read(frame: number): Value {
     const { track } = this;
-    const whole = Math.floor(frame);
-    const key = findKey(this.keys, whole);
+    const lower = Math.floor(frame);
+    const key = findKey(this.keys, lower);
     if (track.words) return track.words[key] as string | boolean;
     const here = this.#row(key);
-    const part = frame - whole;
-    const isNext = this.keys[key + 1] === whole + 1;
+    const part = frame - lower;
+    const isNext = this.keys[key + 1] === lower + 1;
     if (!track.smooth || !isNext || part === 0) return here;
     const next = this.#row(key + 1);
     const mixed = here.map((value, index) => value + part * ((next[index] as number) - value));
@@ -97,7 +97,7 @@ export class Scene {
     );
   }
 
-  /** Waits until viser has built the scene; false when it does not come up. */
+  /** Wait until viser has built the scene; false if it does not start. */
   async connect(frame: HTMLIFrameElement): Promise<boolean> {
     const names = this.motion.tracks.map((track) => track.name);
     const end = performance.now() + PATIENCE_MS;

@@ -3,7 +3,7 @@ import { useRef } from "preact/hooks";
 import { text } from "../../core/text/replay";
 import {
   isPlaying,
-  isWhole,
+  isWholeRun,
   range,
   SPEEDS,
   seek,
@@ -105,7 +105,7 @@ export function Transport({ recording }: { recording: Recording }) {
           class="button is-icon"
           aria-label={transport.zoomOut}
           title={transport.zoomOut}
-          disabled={isWhole(range.value)}
+          disabled={isWholeRun(range.value)}
           onClick={() => zoom(1 / ZOOM_FACTOR)}
         >
           −
@@ -114,7 +114,7 @@ export function Transport({ recording }: { recording: Recording }) {
           type="button"
           class="button"
           title={transport.wholeHint}
-          disabled={isWhole(range.value)}
+          disabled={isWholeRun(range.value)}
           onClick={showAll}
         >
           {transport.whole}

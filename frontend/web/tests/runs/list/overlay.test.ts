@@ -1,13 +1,13 @@
 import { describe, expect, it, vi } from "vitest";
 import type { RunDetails } from "../../../src/core/api/types";
-import type { Overlaid } from "../../../src/runs/list/overlaid";
+import type { OverlayCurve } from "../../../src/runs/list/overlaycurves";
 import { stubBrowser } from "../../browser";
 
 stubBrowser();
 vi.stubGlobal("document", { baseURI: "http://lab/", documentElement: { dataset: {} } });
 vi.stubGlobal("location", { search: "" });
-const { chooseAlignment, overlay } = await import("../../../src/runs/list/overlaid");
-const { whyUnlike } = await import("../../../src/runs/list/overlaid");
+const { chooseAlignment, overlay } = await import("../../../src/runs/list/overlaycurves");
+const { explainDifference } = await import("../../../src/runs/list/overlaycurves");
 const { COLUMNS, findBest } = await import("../../../src/runs/list/overlaytable");
 
 describe("runs laid over one another", () => {
@@ -85,11 +85,11 @@ describe("the best of an overlay", () => {
       ...of,
       ...change,
     } as unknown as RunDetails;
-    return overlay(run, { time_s: [], lanes: {} } as never)[0] as Overlaid;
+    return overlay(run, { time_s: [], lanes: {} } as never)[0] as OverlayCurve;
   };
   const differing = (...rows: [string, string][]) =>
     ({ differences: rows.map(([group, name]) => ({ group, name })) }) as never;
-  const marked = (curves: Overlaid[], isAlike = true) =>
+  const marked = (curves: OverlayCurve[], isAlike = true) =>
     COLUMNS.filter((column) => findBest(curves, column, isAlike) === 0).map(({ name }) => name);
 
   it("is shown where runs differ in the controller only", () => {
@@ -99,23 +99,25 @@ describe("the best of an overlay", () => {
       ["Changed while it was recorded", "Gains"],
       ["Loads", "Loads"],
     );
-    expect(whyUnlike(pair, controllers)).toBe("");
+    expect(explainDifference(pair, controllers)).toBe("");
     for (const group of ["Motion", "Stiffness", "Realism", "Plant", "Record"]) {
-      expect(whyUnlike(pair, differing([group, "x"]))).toBe(`other settings differ: ${group}`);
+      expect(explainDifference(pair, differing([group, "x"]))).toBe(
+        `other settings differ: ${group}`,
+      );
     }
     const changed = differing(["Changed while it was recorded", "Motion"], ["Stiffness", "σ_d"]);
-    expect(whyUnlike(pair, changed)).toBe("other settings differ: Motion, Stiffness");
-    expect(whyUnlike(pair, null)).toMatch(/unknown/);
+    expect(explainDifference(pair, changed)).toBe("other settings differ: Motion, Stiffness");
+    expect(explainDifference(pair, null)).toMatch(/unknown/);
   });
 
   it("needs the same loads at the same time of the run, whenever the recording began", () => {
     const heavy = { ...PAPER, command: { kind: "load", argument: { kind: "mass", mass_kg: 5 } } };
     const same = curveOf("b", 0.2, { first_tick: 700 });
-    expect(whyUnlike([curveOf("a", 0.07), same], differing(["Loads", "Loads"]))).toBe("");
+    expect(explainDifference([curveOf("a", 0.07), same], differing(["Loads", "Loads"]))).toBe("");
     const many = { command_count: 2000 };
     for (const change of [{ commands: [heavy] }, many, { commands: [{ ...PAPER, tick: 1999 }] }]) {
       const other = curveOf("b", 0.2, change);
-      expect(whyUnlike([curveOf("a", 0.07), other], differing())).toMatch(
+      expect(explainDifference([curveOf("a", 0.07), other], differing())).toMatch(
         /^the loads or their times differ/,
       );
     }
@@ -125,9 +127,9 @@ describe("the best of an overlay", () => {
     const bench = curveOf("a", 0.07, { lanes: ["lane1", "lane2"], plant: "emulated" });
     const simulated = curveOf("b", 0.2);
     const why = "bench and simulation are different plants";
-    expect(whyUnlike([bench, { ...bench, plant: "simulated" }], differing())).toBe(why);
-    expect(whyUnlike([bench, simulated], differing(["Record", "Recorded on"]))).toBe(why);
-    expect(whyUnlike([bench, { ...bench, run: "c" }], differing())).toBe("");
+    expect(explainDifference([bench, { ...bench, plant: "simulated" }], differing())).toBe(why);
+    expect(explainDifference([bench, simulated], differing(["Record", "Recorded on"]))).toBe(why);
+    expect(explainDifference([bench, { ...bench, run: "c" }], differing())).toBe("");
   });
 
   it("is no smallest torque, and of rms none where the windows are of different length", () => {
@@ -135,7 +137,7 @@ describe("the best of an overlay", () => {
     const errors = ["Peak error", "Steady-state error"];
     expect(marked([small, large])).toEqual(["rms error", ...errors, "rms stiffness"]);
     expect(marked([small, large], false)).toEqual([]);
-    const longer = { ...large, window: { ...large.window, end_tick: 5001 } } as Overlaid;
+    const longer = { ...large, window: { ...large.window, end_tick: 5001 } } as OverlayCurve;
     expect(marked([small, longer])).toEqual(errors);
   });
 });

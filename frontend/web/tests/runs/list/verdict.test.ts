@@ -1,17 +1,21 @@
 import { describe, expect, it, vi } from "vitest";
 import type { RunVerdict } from "../../../src/core/api/types";
-import type { Overlaid } from "../../../src/runs/list/overlaid";
+import type { OverlayCurve } from "../../../src/runs/list/overlaycurves";
 import { stubBrowser } from "../../browser";
 
 stubBrowser();
 vi.stubGlobal("document", { baseURI: "http://lab/", documentElement: { dataset: {} } });
 vi.stubGlobal("location", { search: "" });
-const { buildRequest, listBands, listJudged } = await import("../../../src/runs/list/verdict");
+const {
+  buildRequest,
+  listBands,
+  listAssessments: listJudged,
+} = await import("../../../src/runs/list/verdict");
 const { listKnown } = await import("../../../src/runs/list/drawnverdict");
 
 const POSITION = "position_error_rad";
 const curve = (run: string, zeroS: number) =>
-  ({ key: `${run}.lane1`, run, laneId: "lane1", zeroS }) as Overlaid;
+  ({ key: `${run}.lane1`, run, laneId: "lane1", zeroS }) as OverlayCurve;
 const band = (times: number[]) => ({
   time_s: times,
   low: times.map(() => -0.1),
@@ -57,7 +61,7 @@ describe("a verdict in an overlay", () => {
   it("is given in the time of the axis, whose 0 is another time of each run", () => {
     const [one, ...rest] = listJudged(curves, judged);
     expect(rest).toEqual([]);
-    expect(one).toMatchObject({ isHeld: false, worstS: 2.25, outside: [[2, 2.5]], low: null });
+    expect(one).toMatchObject({ isWithin: false, worstS: 2.25, outside: [[2, 2.5]], low: null });
     expect(one?.value).toBeCloseTo(180);
     expect(one?.high).toBeCloseTo(90);
   });

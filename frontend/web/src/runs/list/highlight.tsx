@@ -1,4 +1,4 @@
-/** The words of a search, marked in a text that is shown. */
+/** Marks the words of a search in a text. */
 import { computed } from "@preact/signals";
 import { search } from "./list";
 
@@ -15,7 +15,7 @@ export const searchedWords = computed(() =>
     .filter((word) => word !== ""),
 );
 
-/** The text in parts, found and not; whole where folding it changes its length. */
+/** The text in parts, found and not; unmarked if case folding changes its length. */
 export function findWords(text: string, words: readonly string[]): Part[] {
   const folded = fold(text);
   if (words.length === 0 || folded.length !== text.length) return [{ text, isFound: false }];
@@ -36,7 +36,9 @@ export function findWords(text: string, words: readonly string[]): Part[] {
 
 const BEFORE = 16;
 
-/** What of a long note is shown: from shortly before the first word that was found in it. */
+/**
+ * The part of a long note that is shown: from shortly before the first word that was found in it.
+ */
 export function excerpt(note: string, words: readonly string[]): string {
   const folded = fold(note);
   const places = words.map((word) => folded.indexOf(word)).filter((at) => at >= 0);
@@ -44,8 +46,8 @@ export function excerpt(note: string, words: readonly string[]): string {
   return places.length === 0 || first <= BEFORE ? note : `…${note.slice(first - BEFORE)}`;
 }
 
-/** A text in which what was searched for is marked. */
-export function Marked({ children }: { children: string }) {
+/** A text with the search words marked. */
+export function Highlighted({ children }: { children: string }) {
   return (
     <>
       {findWords(children, searchedWords.value).map((part, index) =>

@@ -24,7 +24,7 @@ describe("a file that the server makes for long", () => {
   it("is shown as in progress, requested once, and saved under its name", async () => {
     let answer: (response: Response) => void = () => undefined;
     let asked = 0;
-    const { makeFile, making } = await load(() => {
+    const { exportFile: makeFile, fileExport: making } = await load(() => {
       asked += 1;
       return new Promise((resolve) => {
         answer = resolve;
@@ -43,7 +43,9 @@ describe("a file that the server makes for long", () => {
 
   it("says why it was not made", async () => {
     const refusal = JSON.stringify({ detail: "Another replay is being made: ask again in 5 s." });
-    const { makeFile, making } = await load(async () => new Response(refusal, { status: 503 }));
+    const { exportFile: makeFile, fileExport: making } = await load(
+      async () => new Response(refusal, { status: 503 }),
+    );
     await makeFile("a run", "runs/a/export?kind=html");
     expect(saved).toEqual([]);
     expect(making.value).toMatchObject({ stage: "failed" });

@@ -1,4 +1,4 @@
-/** Several runs on one axis of time: 0 is where the window of their numbers begins, or each run. */
+/** Several runs on one time axis: 0 is the start of the measured window, or of each run. */
 import { readRun, readSamples } from "../../core/api/runs";
 import type {
   MeasuredWindow,
@@ -14,7 +14,7 @@ import { lineStyleAt, shareLineStyles } from "../../core/plots/linestyles";
 import { text } from "../../core/text/en";
 import { CHANGES, CHANGES_OF_CONTROLLER, CONTROLLER, LOADS } from "../../core/text/runs";
 import { DEGREES_PER_RADIAN } from "../../core/units";
-import { shiftToRecord } from "./measured";
+import { shiftToRecordTime } from "./measured";
 
 export const CHANNELS = [
   "position_error_rad",
@@ -31,48 +31,48 @@ export const TITLES: Record<OverlayChannel, { title: string; unit: string }> = {
 };
 const POINTS = 4000;
 
-/** What of each run is laid over the others' first, as the API has it for a verdict. */
+/** Alignment of the runs, as in the API of a verdict. */
 export type Alignment = VerdictRequest["align"];
 
 /** One lane of one run. */
-export interface Overlaid {
+export interface OverlayCurve {
   key: string;
   run: string;
   runName: string;
-  /** Of the record, and as it is called. */
+  /** Id of the record, and its name. */
   laneId: string;
   lane: string;
-  /** Who controlled it in the window. */
+  /** Its controller in the window. */
   measuredLane: string;
-  /** The plant of the lane: next to a bench, its twin and other lanes are simulated. */
+  /** The plant of the lane: on a bench, the twin and other lanes are simulated. */
   plant: RunDetails["plant"];
   isAlone: boolean;
-  hasOnset: boolean;
-  /** In which the numbers were measured; null where that is not known. */
+  startsWithLoad: boolean;
+  /** Window in which the metrics were measured; null if unknown. */
   window: MeasuredWindow | null;
-  /** Its loads and when they came; the same for runs that had the same. */
+  /** Its loads with their onsets; equal for runs with the same loads. */
   loads: string;
   alignment: Alignment;
-  /** Where that window begins on the axis, s; 0 where runs are aligned at it. */
+  /** Start of that window on the axis, s; 0 if runs are aligned at it. */
   startS: number;
-  /** Where it ends on the axis because something was changed then, s; null: never. */
+  /** End of that window on the axis because of a change, s; null: never. */
   changedS: number | null;
-  /** The session's time where the axis has its 0, s. */
+  /** Session time at the axis' 0, s. */
   zeroS: number;
-  /** Of who controlled it in the window, in its run. */
+  /** Controller number of the window, in its run. */
   ownLineStyle: number | null;
   lineStyle: LineStyle;
   /** On the axis, s. */
   time: Float64Array;
   values: Record<OverlayChannel, (number | null)[]>;
-  /** Of that window; null where samples are no numbers. */
+  /** Metrics of that window; null if samples are missing. */
   metrics: Metrics | null;
 }
 
-export const nameCurve = ({ isAlone, runName, lane }: Overlaid): string =>
+export const nameCurve = ({ isAlone, runName, lane }: OverlayCurve): string =>
   isAlone ? runName : text.overlay.curve(runName, lane);
 
-function readLane(samples: RunSamples, lane: string): Overlaid["values"] {
+function readLane(samples: RunSamples, lane: string): OverlayCurve["values"] {
   const read = (channel: OverlayChannel) =>
     (samples.lanes[lane]?.[channel] ?? []).map((value) =>
       value === null ? null : value * FACTORS[channel],
@@ -83,20 +83,23 @@ function readLane(samples: RunSamples, lane: string): Overlaid["values"] {
   };
 }
 
-/** Every load of a run up to the end of its measured window, in session time, and when that began. */
-function keyOfLoads(run: RunDetails): string {
+/**
+ * Every load of a run up to the end of its measured window, in session time, and the start of the
+ * window.
+ */
+function loadsKey(run: RunDetails): string {
   const { configuration, commands, command_count: count, window } = run;
   if (window === null || count > commands.length) return run.id;
-  const given = commands.filter(
+  const loadCommands = commands.filter(
     ({ tick, command }) =>
       ["load", "unload"].includes(String(command.kind)) && tick < window.end_tick,
   );
-  return JSON.stringify([configuration.loads, given, window.first_tick]);
+  return JSON.stringify([configuration.loads, loadCommands, window.first_tick]);
 }
 
 /**
- * At their windows; but where some had a load and others none, as a run that ended before its own,
- * at their starts: else those would stand apart by the time until the load.
+ * Align at the windows; but if some runs had a load and others none, as a run that ended early, at
+ * their starts: otherwise they would be shifted by the time until the load.
  */
 export function chooseAlignment(runs: readonly RunDetails[]): Alignment {
   const loaded = runs.filter(({ window }) => window?.kind === "load").length;
@@ -108,12 +111,12 @@ export function overlay(
   run: RunDetails,
   samples: RunSamples,
   alignment: Alignment = "window",
-): Omit<Overlaid, "lineStyle">[] {
+): Omit<OverlayCurve, "lineStyle">[] {
   const { id, window } = run;
   const first = run.first_tick * run.period_s;
-  const begin = window?.start_s ?? first;
-  const zero = alignment === "window" ? begin : first;
-  const isCut = window !== null && window.end_tick < run.first_tick + run.ticks;
+  const windowStart = window?.start_s ?? first;
+  const zero = alignment === "window" ? windowStart : first;
+  const isChanged = window !== null && window.end_tick < run.first_tick + run.ticks;
   const time = Float64Array.from(samples.time_s, (seconds) => seconds - zero);
   return run.lanes.map((lane, index) => ({
     key: `${id}.${lane}`,
@@ -123,14 +126,14 @@ export function overlay(
     lane: run.lane_names[index] ?? lane,
     measuredLane: window?.lanes[index] ?? lane,
     plant: index === 0 ? run.plant : "simulated",
-    ownLineStyle: lineStyleAt(run.segments[index], begin),
+    ownLineStyle: lineStyleAt(run.segments[index], windowStart),
     isAlone: run.lanes.length === 1,
-    hasOnset: window?.kind === "load",
-    window: window && shiftToRecord(window, run),
-    loads: keyOfLoads(run),
+    startsWithLoad: window?.kind === "load",
+    window: window && shiftToRecordTime(window, run),
+    loads: loadsKey(run),
     alignment,
-    startS: begin - zero,
-    changedS: isCut ? window.end_s - zero : null,
+    startS: windowStart - zero,
+    changedS: isChanged ? window.end_s - zero : null,
     zeroS: zero,
     time,
     values: readLane(samples, lane),
@@ -138,8 +141,8 @@ export function overlay(
   }));
 }
 
-/** Every lane of these runs, each in its own line style where no other is drawn in that. */
-export async function readOverlaid(runs: readonly string[]): Promise<Overlaid[]> {
+/** Every lane of these runs, each with its own line style if it is free. */
+export async function readCurves(runs: readonly string[]): Promise<OverlayCurve[]> {
   const read = await Promise.all(
     runs.map((id) => Promise.all([readRun(id), readSamples(id, CHANNELS, POINTS)])),
   );
@@ -149,13 +152,14 @@ export async function readOverlaid(runs: readonly string[]): Promise<Overlaid[]>
   return lanes.map((lane, index) => ({ ...lane, lineStyle: lineStyles[index] as LineStyle }));
 }
 
-// Whether metrics of runs may be compared: only if all had the same task.
+// Metrics of runs may be compared only if all had the same task.
 
 const words = text.overlay.unlike;
 
 /**
- * What is compared may differ: who controls, with what, and what the server calls a change of it;
- * when a load came is compared in session time, where the server tells it from the record's start.
+ * Differences that a comparison permits: controllers and their settings, and the server's changes
+ * of them; the onset of a load is compared in session time, while the server uses the record's
+ * start.
  */
 function listDiffering({ differences }: RunDifference): string[] {
   const found = differences.filter(
@@ -170,13 +174,16 @@ function listDiffering({ differences }: RunDifference): string[] {
 const areSame = (keys: readonly unknown[]): boolean => new Set(keys).size <= 1;
 
 /**
- * Why none of these numbers may be called the best; "" where one may.
+ * Why none of these values may be marked as the best; "" if one may.
  *
- * difference: of the settings of the runs; null where it is not known.
+ * difference: of the settings of the runs; null if unknown.
  */
-export function whyUnlike(curves: readonly Overlaid[], difference: RunDifference | null): string {
-  const begins = curves.map(({ window }) => window && `${window.kind} ${window.label}`);
-  if (begins.includes(null) || !areSame(begins)) return words.windows;
+export function explainDifference(
+  curves: readonly OverlayCurve[],
+  difference: RunDifference | null,
+): string {
+  const windowNames = curves.map(({ window }) => window && `${window.kind} ${window.label}`);
+  if (windowNames.includes(null) || !areSame(windowNames)) return words.windows;
   if (!areSame(curves.map(({ plant }) => plant))) return words.plants;
   if (areSame(curves.map(({ run }) => run))) return "";
   if (difference === null) return words.unknown;
@@ -185,8 +192,11 @@ export function whyUnlike(curves: readonly Overlaid[], difference: RunDifference
   return areSame(curves.map(({ loads }) => loads)) ? "" : words.loads;
 }
 
-/** Whether the windows are of one length, to a tick: else their rms is not of the same. */
-export function areOfOneLength(curves: readonly Overlaid[]): boolean {
+/**
+ * Whether the windows have the same length, within a tick: otherwise their rms values are not
+ * comparable.
+ */
+export function haveEqualLength(curves: readonly OverlayCurve[]): boolean {
   const lengths = curves.map(({ window }) => window && window.end_tick - window.first_tick);
   return !lengths.includes(null) && areSame(lengths);
 }
