@@ -1,4 +1,4 @@
-/** An adversary as it stands in the form, and as it is sent. */
+/** An adversary as edited in the form, and as sent to the server. */
 import type { Adversary, Scenario, Term } from "../../core/api/falsifications";
 import type { Span } from "../../core/plots/spans";
 
@@ -11,7 +11,7 @@ export type Kind = (typeof KINDS)[number];
 type Body = (typeof BODIES)[number];
 type Ends = readonly [number, number];
 
-/** A load of the family; its own range, in addition to the onset, is length or frequency. */
+/** A load of the family; besides the onset it has a length or a frequency with its own range. */
 export interface TermForm {
   kind: Kind;
   bodies: readonly Body[];
@@ -28,9 +28,9 @@ export interface AdversaryForm {
   durationS: number;
   measureFromS: number;
   terms: readonly TermForm[];
-  /** By how much of itself the model may be off, %. */
+  /** Maximum relative error of the model, %. */
   offPercent: number;
-  /** Perturbations that are no such share. */
+  /** Perturbations that are not relative errors. */
   vary: Adversary["vary"];
 }
 
@@ -57,7 +57,7 @@ function writeTerm({ kind, bodies, torqueNm, startS, own }: TermForm): Term {
   return { ...shared, ...range, kind } as Term;
 }
 
-/** The share of a perturbation that is one of the form's, %; null of any other. */
+/** The percentage of a perturbation that the form can edit; null for any other. */
 function readOff(one: Adversary["vary"][number]): number | null {
   const isOff = one.kind === "uniform" && one.relative && OFF_PATHS.some((p) => p === one.path);
   return isOff && Math.abs(one.low + one.high - 2) < 1e-9 ? 100 * (one.high - 1) : null;
@@ -101,7 +101,7 @@ export function writeForm(form: AdversaryForm): Adversary {
   };
 }
 
-/** What a family may do in a few words, for the title of a search that was changed. */
+/** Short description of a family, for the title of a changed search. */
 export const describeTerms = (
   terms: readonly TermForm[],
   words: { kinds: Record<Kind, string>; bodies: Record<Body, string> },
@@ -116,7 +116,7 @@ export const describeTerms = (
 
 const BEFORE_S = 1;
 
-/** From a little before the first load on, to the end. */
+/** Time window from shortly before the first load to the end. */
 export function spanOf(scenario: Scenario, time: readonly number[]): Span {
   const loads = (scenario.loads ?? []) as { start_s?: number }[];
   const onsets = loads.flatMap(({ start_s: start }) => start ?? []);

@@ -1,53 +1,67 @@
-/** The searches and scenarios of this lab, the one that is looked at, and laws to run in it. */
+/** The searches and scenarios of this lab, the selected one, and the laws to run in it. */
 import { computed, signal } from "@preact/signals";
 import {
   type AdversaryState,
-  keepScenario,
   listAdversaries,
   listScenarios,
   listSearches,
+  openScenarioSession,
   readSearch,
-  runLaws,
   type SavedScenario,
   type Scenario,
   type Search,
-  type SearchWish,
-  seeLaws,
+  type SearchRequest,
+  saveScenario,
   startSearch,
   stopSearch,
   type Trace,
+  traceLaws,
 } from "../../core/api/falsifications";
 import type { Law } from "../../core/api/types";
-import { polling, reading } from "../../core/jobs/poll";
-import { isGoing } from "../../core/jobs/progress";
-import { asking, showErrorIn } from "../../core/state/actions";
-import { goTo, place } from "../../runs/list/place";
+import { createPoll, createReader } from "../../core/jobs/poll";
+import { isJobRunning } from "../../core/jobs/progress";
+import { backgroundAttempt, showErrorIn } from "../../core/state/actions";
+import { isObserver } from "../../core/state/control";
+import { goTo, place, storeLaws } from "../../runs/list/place";
 
 const PAPERS_LAW = "ndobc";
 const BASELINE = "fl";
 
 export const adversaries = signal<readonly AdversaryState[]>([]);
 export const searches = signal<readonly Search[] | null>(null);
-export const kept = signal<readonly SavedScenario[] | null>(null);
+export const savedScenarios = signal<readonly SavedScenario[] | null>(null);
 export const search = signal<Search | null>(null);
-/** The outcomes of the laws, with their scenario and laws, and where they are shown. */
-export const traced = signal<{ at: string; key: string; trace: Trace } | null>(null);
+/** The outcomes of the laws, with their scenario, laws and place. */
+export const lastTrace = signal<{ at: string; key: string; trace: Trace } | null>(null);
 export const problem = signal("");
 export const isBusy = signal("");
 
-export const chosen = computed(() =>
-  place.value.kind === "falsifier" ? place.value : { search: "", scenario: "", laws: [] },
+const NO_SELECTION = { search: "", scenario: "", laws: [] as readonly Law[] };
+
+/** What the address names, else the latest search or a saved scenario; before these the example. */
+export const selection = computed(() => {
+  const inAddress = place.value.kind === "falsifier" ? place.value : NO_SELECTION;
+  if (inAddress.search !== "" || inAddress.scenario !== "") return inAddress;
+  const latest = searches.value?.[0]?.id ?? "";
+  const scenario = latest === "" ? (savedScenarios.value?.[0]?.name ?? "") : "";
+  return { search: latest, scenario, laws: inAddress.laws };
+});
+
+const selectionKey = computed(() => `${selection.value.search} ${selection.value.scenario}`);
+
+/** The outcomes of the laws in the selected scenario, of the latest request. */
+export const shownTrace = computed(() =>
+  lastTrace.value?.at === selectionKey.value ? lastTrace.value.trace : null,
 );
 
-const at = computed(() => `${chosen.value.search} ${chosen.value.scenario}`);
+const savedScenario = computed(() =>
+  savedScenarios.value?.find(({ name }) => name === selection.value.scenario),
+);
+export const isExample = computed(() => savedScenario.value?.is_example ?? false);
 
-/** The outcomes of the laws here, of the latest request. */
-export const shown = computed(() => (traced.value?.at === at.value ? traced.value.trace : null));
-
-/** The scenario that is looked at: a kept one, or the simplest or the worst of a search. */
+/** The selected scenario: a saved one, or the simplest or the worst one of a search. */
 export const scenario = computed((): Scenario | null => {
-  const { scenario: name } = chosen.value;
-  if (name !== "") return kept.value?.find((one) => one.name === name)?.scenario ?? null;
+  if (selection.value.scenario !== "") return savedScenario.value?.scenario ?? null;
   return search.value?.scenario ?? search.value?.worst ?? null;
 });
 
@@ -70,17 +84,21 @@ export const baselinesOf = (law: Law): readonly [Law, Law] => [
   law === PAPERS_LAW ? BASELINE : PAPERS_LAW,
 ];
 
-/** The laws to run in it: the requested ones; else the one that it hurts, and
- * another one once the search has ended. */
+/**
+ * The laws to run in it: the requested ones; otherwise the searched law, and another one once the
+ * search has ended.
+ */
 export const laws = computed((): readonly Law[] => {
-  if (chosen.value.laws.length > 0) return chosen.value.laws;
-  const hurt = (scenario.value && findingOf(scenario.value)?.law) ?? PAPERS_LAW;
-  return isGoing(search.value) ? [hurt] : baselinesOf(hurt);
+  if (selection.value.laws.length > 0) return selection.value.laws;
+  const searchedLaw = (scenario.value && findingOf(scenario.value)?.law) ?? PAPERS_LAW;
+  return isJobRunning(search.value) ? [searchedLaw] : baselinesOf(searchedLaw);
 });
 
-const attempt = asking(problem);
+export const setLaws = (names: readonly Law[]): void => storeLaws(selection.peek(), names);
 
-const readLists = reading(showErrorIn(problem));
+const attempt = backgroundAttempt(problem);
+
+const readLists = createReader(showErrorIn(problem));
 
 export const openLists = () =>
   readLists(
@@ -93,28 +111,36 @@ export const openLists = () =>
     ([known, ended, named]) => {
       adversaries.value = known;
       searches.value = ended;
-      kept.value = named;
+      savedScenarios.value = named;
     },
   );
 
-const poll = polling(showErrorIn(problem));
-export const { leave } = poll;
+const poll = createPoll(showErrorIn(problem));
+export const { stop: stopFollowing } = poll;
 
-/** Looks at a search, and follows it until it has ended. */
+/**
+ * Stop following a search; a message about it disappears. Before the lists have arrived the
+ * identifier is empty, and a message of the form stays when the first search appears.
+ */
+export function leave(id: string): void {
+  stopFollowing();
+  if (id !== "") problem.value = "";
+}
+
+/** Select a search, and follow it until it has ended. */
 export async function follow(id: string): Promise<void> {
-  leave();
-  problem.value = "";
+  stopFollowing();
   search.value = null;
   if (id === "") return;
-  const ending = await poll.follow(
+  const pollEnd = await poll.follow(
     () => readSearch(id),
     (found) => {
       search.value = found;
-      return !isGoing(found);
+      return !isJobRunning(found);
     },
   );
-  if (ending === "ended") void openLists();
-  else if (ending === "refused") search.value = null;
+  if (pollEnd === "ended") void openLists();
+  else if (pollEnd === "refused") search.value = null;
 }
 
 export const keyOf = (one: Scenario, names: readonly Law[]): string =>
@@ -122,69 +148,69 @@ export const keyOf = (one: Scenario, names: readonly Law[]): string =>
 
 let isTracing = false;
 
-/** Runs the laws in the open scenario; later requests come next. */
-export async function runThem(): Promise<void> {
-  if (isTracing) return;
+/** Run the laws in the selected scenario; later requests are queued. */
+export async function traceSelection(): Promise<void> {
+  if (isTracing || isObserver.peek()) return;
   isTracing = true;
   try {
     for (;;) {
-      const [one, names, here] = [scenario.peek(), laws.peek(), at.peek()];
+      const [one, names, here] = [scenario.peek(), laws.peek(), selectionKey.peek()];
       if (one === null) return;
       const key = keyOf(one, names);
-      const last = traced.peek();
+      const last = lastTrace.peek();
       if (last?.key === key && last.at === here) return;
-      const found = await attempt(() => runLaws(one, names));
-      if (here !== at.peek()) continue;
+      const found = await attempt(() => traceLaws(one, names));
+      if (here !== selectionKey.peek()) continue;
       if (found === null) return;
-      traced.value = { at: here, key, trace: found };
+      lastTrace.value = { at: here, key, trace: found };
     }
   } finally {
     isTracing = false;
   }
 }
 
-/** Whether it was begun. */
-export async function begin(wish: SearchWish): Promise<boolean> {
+/** Returns whether it was started. */
+export async function startNewSearch(searchRequest: SearchRequest): Promise<boolean> {
   problem.value = "";
   isBusy.value = "begin";
-  const begun = await attempt(() => startSearch(wish));
+  const started = await attempt(() => startSearch(searchRequest));
   isBusy.value = "";
-  if (begun === null) return false;
+  if (started === null) return false;
   void openLists();
-  goTo({ kind: "falsifier", search: begun.id, scenario: "", laws: [] });
+  goTo({ kind: "falsifier", search: started.id, scenario: "", laws: [] });
   return true;
 }
 
 export async function cancel(): Promise<void> {
-  const going = search.peek();
-  if (going !== null) await attempt(() => stopSearch(going.id));
+  const running = search.peek();
+  if (running !== null) await attempt(() => stopSearch(running.id));
 }
 
-/** Keeps what is looked at by a name, and goes there. */
-export async function keep(name: string): Promise<void> {
+/** Save the selected scenario under a name, and select the saved one. */
+export async function saveSelection(name: string): Promise<void> {
   const one = scenario.peek();
   if (one === null) return;
   problem.value = "";
   isBusy.value = "keep";
-  const made = await attempt(() => keepScenario(name, one));
-  if (made !== null) {
+  const created = await attempt(() => saveScenario(name, one));
+  if (created !== null) {
     await openLists();
-    goTo({ kind: "falsifier", search: "", scenario: made.name, laws: chosen.peek().laws });
+    goTo({ kind: "falsifier", search: "", scenario: created.name, laws: selection.peek().laws });
   }
   isBusy.value = "";
 }
 
-/** Opens a private session of a law under it, compared with the searched law. */
-export async function see(law: Law): Promise<void> {
+/** Open a private session of a law under it, compared with the searched law. */
+export async function openInLab(law: Law): Promise<void> {
   const one = scenario.peek();
   if (one === null) return;
   problem.value = "";
   isBusy.value = `see ${law}`;
-  const hurt = findingOf(one)?.law ?? law;
-  const pair = law === hurt ? baselinesOf(law) : [law, hurt];
-  const made = await attempt(() => seeLaws(one, pair));
+  const searchedLaw = findingOf(one)?.law ?? law;
+  const pair = law === searchedLaw ? baselinesOf(law) : [law, searchedLaw];
+  const created = await attempt(() => openScenarioSession(one, pair));
   isBusy.value = "";
-  if (made !== null) {
-    location.assign(`${location.pathname}?session=${encodeURIComponent(made.session)}`);
+  if (created !== null) {
+    location.assign(`${location.pathname}?session=${encodeURIComponent(created.session)}`);
   }
 }

@@ -6,10 +6,9 @@ import { writeFault } from "../../core/state/faults";
 import { titleOf, usableLaws } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { DEGREES_PER_RADIAN, formatNumber } from "../../core/units";
-import { LawBoxes } from "../../core/widgets/desk";
+import { LawBoxes } from "../../core/widgets/pagelayout";
 import { Table } from "../../core/widgets/tables";
-import { keepLaws } from "../../runs/list/place";
-import { baselinesOf, findingOf, isBusy, laws, scenario, see } from "./falsifier";
+import { baselinesOf, findingOf, isBusy, laws, openInLab, scenario, setLaws } from "./falsifier";
 import type { DrawnLaw } from "./picture";
 
 const words = text.falsifier;
@@ -22,7 +21,7 @@ const metricOf = (one: LawTrace, name: string, factor = 1): string => {
 const endOf = ({ fault, fault_s: timeS }: LawTrace): string =>
   fault === null ? words.whole : words.fault(writeFault(fault), formatNumber(timeS, 4, 3));
 
-/** Recovery is none of a run that ended; of another one without it: it never did. */
+/** Text for a missing recovery: the run ended, or it did not recover. */
 const recoveryOf = (one: LawTrace): string =>
   one.fault === null && one.metrics.recovery_time_s === null
     ? words.never
@@ -30,7 +29,7 @@ const recoveryOf = (one: LawTrace): string =>
 
 const peakOf = (one: LawTrace): number => one.metrics.peak_position_error_rad ?? Infinity;
 
-/** Those that held first, the least error first; then those that ended, the last one first. */
+/** Order: completed runs by error, then ended ones, the last to end first. */
 export const rankLaws = (traces: readonly LawTrace[]): LawTrace[] =>
   [...traces].sort((a, b) => {
     if (a.fault === null || b.fault === null) {
@@ -74,7 +73,7 @@ function Row({ one, lineStyle, onDraw }: RowProps) {
           title={words.seeHint}
           aria-label={words.seeLabel(title)}
           disabled={isBusy.value !== ""}
-          onClick={() => void see(one.law)}
+          onClick={() => void openInLab(one.law)}
         >
           {words.see}
         </button>
@@ -89,17 +88,17 @@ function Choice() {
   return (
     <details class="falsifier-choice">
       <summary>{words.choice}</summary>
-      <LawBoxes laws={laws.value} onChange={keepLaws} />
+      <LawBoxes laws={laws.value} onChange={setLaws} />
       <div class="row">
         <button
           type="button"
           class="button"
-          onClick={() => keepLaws(usableLaws.value.map(({ name }) => name))}
+          onClick={() => setLaws(usableLaws.value.map(({ name }) => name))}
         >
           {words.all}
         </button>
         {hurt && (
-          <button type="button" class="button" onClick={() => keepLaws(baselinesOf(hurt))}>
+          <button type="button" class="button" onClick={() => setLaws(baselinesOf(hurt))}>
             {words.few}
           </button>
         )}
@@ -115,7 +114,7 @@ interface LawsProps {
   onDraw: (law: Law) => void;
 }
 
-/** Which laws held, and which ended in a fault. */
+/** The laws that completed the run, and those that ended in a fault. */
 export function Laws({ traces, drawn, isRunning, onDraw }: LawsProps) {
   const held = traces.filter(({ fault }) => fault === null).length;
   return (

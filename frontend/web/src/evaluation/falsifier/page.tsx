@@ -1,53 +1,55 @@
 import { useComputed } from "@preact/signals";
 import { useEffect, useMemo, useState } from "preact/hooks";
 import type { Law } from "../../core/api/types";
-import { isGoing } from "../../core/jobs/progress";
+import { isJobRunning } from "../../core/jobs/progress";
 import type { LineStyle } from "../../core/plots/definitions";
 import { lineStylesOfLaws } from "../../core/plots/linestyles";
+import { isObserver } from "../../core/state/control";
 import { laws as installedLaws, titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
-import { Desk } from "../../core/widgets/desk";
+import { Example, PageWithForm } from "../../core/widgets/pagelayout";
 import { PlaceLink } from "../../runs/list/place";
 import {
-  chosen,
   findingOf,
   follow,
-  kept,
   keyOf,
+  lastTrace,
   laws,
   leave,
   openLists,
   problem,
-  runThem,
+  savedScenarios,
   scenario,
   searches,
-  shown,
-  traced,
+  selection,
+  shownTrace,
+  traceSelection,
 } from "./falsifier";
-import { Found } from "./found";
 import { Laws } from "./laws";
-import { type DrawnLaw, Picture } from "./picture";
+import { type DrawnLaw, TracePlots } from "./picture";
+import { ScenarioResult } from "./scenarioresult";
 import { Start } from "./start";
 
 const words = text.falsifier;
 const MAX_DRAWN = 4;
 
-function Kept() {
-  const { search: shown, scenario: name } = chosen.value;
+function SavedScenarios() {
+  const { search: shown, scenario: name } = selection.value;
   return (
     <>
       <nav class="surface card menu" aria-label={words.kept}>
         <h3>{words.kept}</h3>
-        {kept.value === null && problem.value === "" && <p class="hint">{words.loading}</p>}
-        {kept.value?.length === 0 && <p class="hint">{words.noneKept}</p>}
+        {savedScenarios.value === null && problem.value === "" && (
+          <p class="hint">{words.loading}</p>
+        )}
         <ul>
-          {(kept.value ?? []).map((one) => (
+          {(savedScenarios.value ?? []).map((one) => (
             <li key={one.name} aria-current={one.name === name ? "page" : undefined}>
               <PlaceLink
                 to={{ kind: "falsifier", search: "", scenario: one.name, laws: [] }}
                 title={one.title}
               >
-                <b>{one.name}</b>
+                <b>{one.name}</b> {one.is_example && <Example />}
                 <small>{findingOf(one.scenario)?.outcome ?? one.title}</small>
               </PlaceLink>
             </li>
@@ -66,7 +68,7 @@ function Kept() {
                 >
                   <b>{titleOf(one.law)}</b>
                   <small>
-                    {isGoing(one)
+                    {isJobRunning(one)
                       ? text.jobs.status[one.status]
                       : ((one.scenario && findingOf(one.scenario)?.outcome) ??
                         text.jobs.status[one.status])}
@@ -81,13 +83,13 @@ function Kept() {
   );
 }
 
-/** The picture of it and the laws under it, of whichever came last. */
+/** The latest picture and outcomes of the laws. */
 function Under() {
   const one = scenario.value;
   const [picked, setPicked] = useState<readonly Law[] | null>(null);
-  const wanted = useComputed(() => scenario.value && keyOf(scenario.value, laws.value)).value;
-  useEffect(() => void runThem(), [wanted]);
-  const trace = shown.value;
+  const requestedKey = useComputed(() => scenario.value && keyOf(scenario.value, laws.value)).value;
+  useEffect(() => void traceSelection(), [requestedKey]);
+  const trace = shownTrace.value;
   const names = picked ?? trace?.laws.map(({ law }) => law).slice(0, MAX_DRAWN) ?? [];
   const installed = installedLaws.value;
   const drawn = useMemo(() => {
@@ -98,52 +100,49 @@ function Under() {
     );
   }, [trace, names.join(), installed]);
   if (one === null) return null;
+  if (isObserver.value) return <p class="hint wide">{words.observer}</p>;
   if (trace === null) return <p class="hint wide">{problem.value === "" && words.running}</p>;
   const draw = (law: Law) =>
     setPicked(names.includes(law) ? names.filter((name) => name !== law) : [...names, law]);
   return (
     <>
-      <Picture scenario={one} trace={trace} drawn={drawn} />
+      <TracePlots scenario={one} trace={trace} drawn={drawn} />
       <Laws
         traces={trace.laws}
         drawn={drawn}
-        isRunning={traced.value?.key !== wanted && problem.value === ""}
+        isRunning={lastTrace.value?.key !== requestedKey && problem.value === ""}
         onDraw={draw}
       />
     </>
   );
 }
 
-/** The load that hurts a law most: searched, made simple, kept, and put to any law. */
+/** The worst-case load of a law: search, simplify, save, and run other laws in it. */
 export function FalsifierPage() {
-  const { search: id, scenario: name } = chosen.value;
+  const { search: id, scenario: name } = selection.value;
   useEffect(() => {
     void openLists();
   }, []);
   useEffect(() => {
     void follow(id);
-    return leave;
+    return () => leave(id || name);
   }, [id, name]);
   return (
-    <Desk
+    <PageWithForm
       title={words.title}
       lead={words.lead}
       problem={problem.value}
       side={
         <>
-          <Kept />
+          <SavedScenarios />
           <Start />
         </>
       }
     >
-      {id === "" && name === "" ? (
-        <p class="hint">{words.choose}</p>
-      ) : (
-        <div class="halves">
-          <Found scenario={scenario.value} />
-          <Under key={`${id} ${name}`} />
-        </div>
-      )}
-    </Desk>
+      <div class="halves">
+        <ScenarioResult scenario={scenario.value} />
+        <Under key={`${id} ${name}`} />
+      </div>
+    </PageWithForm>
   );
 }

@@ -6,9 +6,9 @@ import { Swatch } from "../../core/plots/legend";
 import { DASHED, DOTTED, PLAIN, palette } from "../../core/plots/linestyles";
 import {
   describeTimeChart,
-  type StillCurve,
+  type StaticCurve,
   spanWithin,
-  useStillChart,
+  useStaticChart,
 } from "../../core/plots/staticchart";
 import { text } from "../../core/text/en";
 import { DEGREES_PER_RADIAN } from "../../core/units";
@@ -32,7 +32,7 @@ export interface DrawnLaw extends LawTrace {
 
 type Chart = keyof typeof MIN_SPANS;
 
-function curvesOf(chart: Chart, trace: Trace, drawn: readonly DrawnLaw[]): StillCurve[] {
+function curvesOf(chart: Chart, trace: Trace, drawn: readonly DrawnLaw[]): StaticCurve[] {
   if (chart === "torque") {
     return BODIES.map((body, at) => ({
       key: body,
@@ -50,7 +50,7 @@ function curvesOf(chart: Chart, trace: Trace, drawn: readonly DrawnLaw[]): Still
   }));
 }
 
-/** A cross where a run ended in a fault. */
+/** A cross at the fault of a run. */
 function drawCrosses(plot: uPlot, trace: Trace, drawn: readonly DrawnLaw[]): void {
   const { ctx: context } = plot;
   const reach = CROSS_PX * devicePixelRatio;
@@ -81,7 +81,7 @@ interface ChartProps {
   view: ReturnType<typeof spanWithin>;
 }
 
-function describeChart(curves: readonly StillCurve[], { chart, trace, drawn, view }: ChartProps) {
+function describeChart(curves: readonly StaticCurve[], { chart, trace, drawn, view }: ChartProps) {
   const hasTimes = chart === "stiffness";
   return describeTimeChart({
     time: trace.time_s,
@@ -98,7 +98,7 @@ function describeChart(curves: readonly StillCurve[], { chart, trace, drawn, vie
 function ErrorChart(props: ChartProps) {
   const { chart, trace, drawn, view } = props;
   const curves = useMemo(() => curvesOf(chart, trace, drawn), [chart, trace, drawn]);
-  const host = useStillChart(useMemo(() => describeChart(curves, props), [curves, view]));
+  const host = useStaticChart(useMemo(() => describeChart(curves, props), [curves, view]));
   const { title, unit } = words.charts[chart];
   const bodies = curves.filter(({ key }) => BODIES.some((body) => body === key));
   return (
@@ -130,7 +130,7 @@ interface PictureProps {
 }
 
 /** The torques of the loads, and below them the errors that they cause. */
-export function Picture({ scenario, trace, drawn }: PictureProps) {
+export function TracePlots({ scenario, trace, drawn }: PictureProps) {
   const view = useMemo(() => spanWithin(spanOf(scenario, trace.time_s)), [trace]);
   return (
     <section class="surface card wide" aria-label={words.picture}>

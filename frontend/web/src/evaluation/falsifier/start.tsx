@@ -13,14 +13,14 @@ import {
   type TermForm,
   writeForm,
 } from "./definition";
-import { adversaries, begin, isBusy } from "./falsifier";
+import { adversaries, isBusy, startNewSearch } from "./falsifier";
 import { TermFields } from "./term";
 
 const words = text.falsifier;
 const OWN = "";
 const RUNS = 20_000;
 
-/** What the runs begin from: effects, references. */
+/** Base of the runs: effects, references. */
 function Base({ form, onChange }: FieldsProps) {
   const { base } = form;
   const effects = EFFECTS.find((one) => one === (base.effects ?? "ideal"));
@@ -78,7 +78,7 @@ function Loads({ form, onChange }: FieldsProps) {
   );
 }
 
-/** Bounds within which is searched, and what is after: a built-in adversary, changed, or a text. */
+/** Bounds and objective of a search: a built-in adversary, changed, or text. */
 export function Start() {
   const known = adversaries.value;
   const first = known[0];
@@ -104,8 +104,8 @@ export function Start() {
       class="surface card stack form"
       onSubmit={(event) => {
         event.preventDefault();
-        const asked = form ? { definition: writeForm({ ...form, law: hurt }) } : { text: own };
-        void begin({ ...asked, ...(law !== "" && { law }), runs, seed });
+        const definition = form ? { definition: writeForm({ ...form, law: hurt }) } : { text: own };
+        void startNewSearch({ ...definition, ...(law !== "" && { law }), runs, seed });
       }}
     >
       <h3>{words.begin}</h3>

@@ -37,7 +37,7 @@ interface TermFieldsProps {
   onRemove: () => void;
 }
 
-/** One load of the family: its kind, on what, how large, when, and how long or how fast. */
+/** One load of the family: kind, channels, size, onset, and duration or frequency. */
 export function TermFields({ number, term, canBeRemoved, onChange, onRemove }: TermFieldsProps) {
   return (
     <fieldset class="stack falsifier-term">

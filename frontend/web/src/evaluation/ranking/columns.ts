@@ -1,4 +1,4 @@
-/** The columns of the ranking: what each shows, and the order that it makes. */
+/** The columns of the ranking: content and sort key. */
 import type { Family, Outcome, Results, Row } from "../../core/api/ranking";
 import { text } from "../../core/text/en";
 import { formatNumber, toDegrees } from "../../core/units";
@@ -13,7 +13,7 @@ export const RECOVERY = "recovery_time_s";
 
 export interface Column extends SortColumn {
   key: keyof typeof words.columns;
-  /** What it is ordered by; null comes last. */
+  /** Sort key; null comes last. */
   read: (row: Row, results: Results) => number | null;
   write: (row: Row, results: Results) => string;
   /** The run that shows it. */
@@ -26,13 +26,13 @@ export const rankOf = (results: Results, key: string) =>
 const successOf = (family: Family | undefined): number =>
   family === undefined ? 0 : family.held / family.trials;
 
-/** The success rate with Wilson's interval, as the server reports it. */
+/** The success rate with Wilson's interval, from the server. */
 export const writeSuccess = (family: Family | undefined): string =>
   family === undefined
     ? ""
     : words.success(100 * family.success, 100 * family.success_low, 100 * family.success_high);
 
-/** The value below which half, or nine tenths, of a family's trials are. */
+/** The median or the 90 % quantile of a family's trials. */
 export const quantileOf = (family: Family, metric: string, share: "middle" | "most") =>
   family.metrics[metric]?.[share === "middle" ? MIDDLE : MOST] ?? null;
 
@@ -99,7 +99,7 @@ export const COLUMNS: readonly Column[] = [
   },
 ];
 
-/** Rows in the order asked for; one without a value comes last, equal ones by rank. */
+/** Sorted rows; those without a value come last, equal ones by rank. */
 export function sortRows(results: Results | null, key: string, isDown: boolean): readonly Row[] {
   if (results === null) return [];
   const column = COLUMNS.find((one) => one.key === key);

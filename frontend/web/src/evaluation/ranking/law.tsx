@@ -3,8 +3,9 @@ import { Formula } from "../../core/equations/formula";
 import { lawOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { formatNumber, toDegrees } from "../../core/units";
+import { MathSymbol } from "../../core/widgets/symbol";
 import { quantileOf, RECOVERY, SHARE, writeOutcome } from "./columns";
-import { chosen, opening, results, see, splitSource, titleOfRow } from "./ranking";
+import { chosen, openInLab, opening, results, splitSource, titleOfRow } from "./ranking";
 
 const words = text.ranking;
 
@@ -23,7 +24,7 @@ function Source({ source }: { source: string }) {
   );
 }
 
-/** How its parameters were found. */
+/** Origin of its parameters. */
 function Tuning({ row: { tuning, variant } }: { row: Row }) {
   if (!tuning) return <p class="hint">{words.variants[variant]}</p>;
   const { candidates, trials, validation, seed } = tuning;
@@ -52,7 +53,7 @@ function ScenarioRow({ row, one }: { row: Row; one: Outcome }) {
           type="button"
           title={words.seeWorst}
           disabled={opening.value !== ""}
-          onClick={() => void see(row.key, one.worst)}
+          onClick={() => void openInLab(row.key, one.worst)}
         >
           {one.title}
         </button>
@@ -126,7 +127,7 @@ function Trials({ row }: { row: Row }) {
   );
 }
 
-/** The chosen row: the law, its tuning, its fixed scenarios and its trials. */
+/** The selected row: the law, its tuning, its fixed scenarios and its trials. */
 export function LawCard() {
   const row = results.value?.rows.find(({ key }) => key === chosen.value);
   if (row === undefined) return null;
@@ -134,7 +135,11 @@ export function LawCard() {
   return (
     <section class="surface card" aria-labelledby="ranking-law-title">
       <h3 id="ranking-law-title">{titleOfRow(row)}</h3>
-      {law && <p>{law.summary}</p>}
+      {law && (
+        <p>
+          <MathSymbol text={law.summary} />
+        </p>
+      )}
       {law && <Formula tex={law.equation} />}
       {law && <Source source={law.source} />}
       <Tuning row={row} />

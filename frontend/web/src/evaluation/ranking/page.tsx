@@ -1,6 +1,6 @@
 import { useEffect } from "preact/hooks";
 import { text } from "../../core/text/en";
-import { Page } from "../../core/widgets/desk";
+import { Page } from "../../core/widgets/pagelayout";
 import { MathSymbol } from "../../core/widgets/symbol";
 import { COLUMNS } from "./columns";
 import { LawCard } from "./law";
@@ -10,7 +10,7 @@ import { RankingTable } from "./table";
 
 const words = text.ranking;
 
-/** What every column was measured on. */
+/** Conditions of all measurements. */
 function Legend() {
   return (
     <details class="surface card ranking-legend">
@@ -27,7 +27,7 @@ function Legend() {
   );
 }
 
-/** Every law on the same plant, limits, noise and loads. */
+/** Every law with the same plant, limits, noise and loads. */
 export function RankingPage() {
   useEffect(() => void openRanking(), []);
   const found = results.value;

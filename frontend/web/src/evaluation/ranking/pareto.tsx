@@ -16,7 +16,7 @@ interface Point {
   torque: number;
 }
 
-/** The medians of family A of a row; null where one is a trial that ended in a fault. */
+/** The medians of family A of a row; null if one is a trial that ended in a fault. */
 export function readPoint(row: Row): Point | null {
   const family = row.families.A;
   if (family === undefined) return null;
@@ -27,7 +27,7 @@ export function readPoint(row: Row): Point | null {
   return { row, position: toDegrees(position), stiffness, torque };
 }
 
-/** Where values lie on an axis of equal ratios, from 0 to 1, and the powers of ten between. */
+/** Positions of values on a logarithmic axis, from 0 to 1, and the powers of ten between. */
 export function scaleLog(values: readonly number[]) {
   const low = Math.log10(Math.min(...values)) - 0.1;
   const high = Math.log10(Math.max(...values)) + 0.1;

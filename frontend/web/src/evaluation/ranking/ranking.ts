@@ -1,20 +1,20 @@
-/** The published results, their order, and the row that is looked at. */
+/** The published results, their order, and the selected row. */
 import { computed, signal } from "@preact/signals";
-import { type Results, type Row, readRanking, seeScenario } from "../../core/api/ranking";
-import { reading } from "../../core/jobs/poll";
+import { openRankingSession, type Results, type Row, readRanking } from "../../core/api/ranking";
+import { createReader } from "../../core/jobs/poll";
 import { explain, showErrorIn } from "../../core/state/actions";
 import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { sortRows } from "./columns";
 
-/** NDOBC with the gains declared for the paper. */
+/** NDOBC with the gains that the project assumes for the paper. */
 export const DECLARED = "ndobc_declared";
 
 export const results = signal<Results | null>(null);
 export const problem = signal("");
-/** "column", or "-column" from the greatest down. */
+/** "column", or "-column" for descending order. */
 export const sort = signal("rank");
-/** Key of the row that is described. */
+/** Key of the selected row. */
 export const chosen = signal("");
 export const opening = signal("");
 
@@ -26,7 +26,7 @@ export const rows = computed<readonly Row[]>(() => {
 export const titleOfRow = ({ key, law }: Pick<Row, "key" | "law">): string =>
   key === DECLARED ? text.ranking.declared(titleOf(law)) : titleOf(law);
 
-const readResults = reading(showErrorIn(problem));
+const readResults = createReader(showErrorIn(problem));
 
 export async function openRanking(): Promise<void> {
   if (results.peek() !== null) return;
@@ -37,11 +37,11 @@ export async function openRanking(): Promise<void> {
 }
 
 /** Opens a private session of this run in the lab. */
-export async function see(row: string, scenario: string): Promise<void> {
+export async function openInLab(row: string, scenario: string): Promise<void> {
   opening.value = `${row} ${scenario}`;
   problem.value = "";
   try {
-    const { session } = await seeScenario(row, scenario);
+    const { session } = await openRankingSession(row, scenario);
     location.assign(`${location.pathname}?session=${encodeURIComponent(session)}`);
   } catch (error) {
     problem.value = explain(error);
@@ -51,7 +51,7 @@ export async function see(row: string, scenario: string): Promise<void> {
 
 const DOI = /doi:(10\.\d{4,}\/\S+)$/;
 
-/** What a law's source says, and the DOI at its end; "" where it names none. */
+/** The source of a law, and its DOI; "" without one. */
 export function splitSource(source: string): { said: string; doi: string } {
   const found = DOI.exec(source);
   if (found === null) return { said: source, doi: "" };

@@ -2,7 +2,7 @@ import type { Row } from "../../core/api/ranking";
 import { text } from "../../core/text/en";
 import { SortHeads } from "../../core/widgets/tables";
 import { COLUMNS, type Column } from "./columns";
-import { chosen, opening, results, rows, see, sort, titleOfRow } from "./ranking";
+import { chosen, openInLab, opening, results, rows, sort, titleOfRow } from "./ranking";
 
 const words = text.ranking;
 
@@ -20,7 +20,7 @@ function Cell({ column, row }: { column: Column; row: Row }) {
         title={words.see(titleOfRow(row), name)}
         aria-label={words.seeLabel(titleOfRow(row), name, shown)}
         disabled={opening.value !== ""}
-        onClick={() => void see(row.key, scenario)}
+        onClick={() => void openInLab(row.key, scenario)}
       >
         {shown}
       </button>
@@ -28,8 +28,12 @@ function Cell({ column, row }: { column: Column; row: Row }) {
   );
 }
 
-/** An entry a row; its name describes it below, a fixed scenario opens its worst run. */
-export function RankingTable() {
+interface TableProps {
+  columns?: readonly Column[];
+}
+
+/** One row per entry; its name opens its description, a fixed scenario opens its worst run. */
+export function RankingTable({ columns = COLUMNS }: TableProps) {
   return (
     <section class="surface scroll" aria-label={words.table}>
       <table class="table wide-table ranking-table">
@@ -39,7 +43,7 @@ export function RankingTable() {
             <th scope="col" class="is-name">
               {words.law}
             </th>
-            <SortHeads columns={COLUMNS} words={words.columns} sort={sort} />
+            <SortHeads columns={columns} words={words.columns} sort={sort} />
           </tr>
         </thead>
         <tbody>
@@ -57,7 +61,7 @@ export function RankingTable() {
                   {titleOfRow(row)}
                 </button>
               </th>
-              {COLUMNS.map((column) => (
+              {columns.map((column) => (
                 <Cell key={column.key} column={column} row={row} />
               ))}
             </tr>

@@ -1,18 +1,18 @@
 import { useMemo } from "preact/hooks";
 import { otherAxis } from "../../core/plots/axes";
-import { drawnCurve, type StillChart, useStillChart } from "../../core/plots/staticchart";
+import { drawnCurve, type StaticChart, useStaticChart } from "../../core/plots/staticchart";
 import { text } from "../../core/text/en";
-import { nameColumn } from "./look";
+import { columnOf, endedInFault, lawLineStyles, marks, marksOf, screenValues } from "./drawnrows";
 import { distribute, extentOf, scaleOf, spreadsByRatios } from "./points";
 import { ColumnChoice } from "./scatter";
-import { columnOf, ended, lawLineStyles, marks, marksOf, show } from "./shown";
 import { axes, brush, rows, study } from "./studies";
+import { nameColumn } from "./studyview";
 import { LawName } from "./tables";
 
 const words = text.studies;
 const POINTS = 240;
 
-/** Places on the axis of the metric, evenly or by equal ratios. */
+/** Positions on the axis of the metric, linear or logarithmic. */
 function placeLimits(values: Float64Array): { at: number[]; isLog: boolean } {
   const { isLog } = scaleOf(values, spreadsByRatios(values));
   const extent = extentOf(values);
@@ -26,18 +26,18 @@ function placeLimits(values: Float64Array): { at: number[]; isLog: boolean } {
   return { at, isLog };
 }
 
-/** Of each law, which share of its brushed runs lies below a value. */
+/** Cumulative distribution of each law's brushed runs. */
 export function Distribution() {
   const metric = axes.value.metric ?? "";
-  const values = show(rows.value, metric);
+  const values = screenValues(rows.value, metric);
   const laws = study.value?.laws ?? [];
   const lineStyles = lawLineStyles.value;
   const held = marks.value;
   const { at, isLog } = placeLimits(values);
-  const curves = laws.map((_, place) => distribute(values, ended.value, marksOf(place), at));
+  const curves = laws.map((_, place) => distribute(values, endedInFault.value, marksOf(place), at));
   const column = columnOf(metric);
   const chart = useMemo(
-    (): StillChart => ({
+    (): StaticChart => ({
       look: {
         padding: [8, 12, 0, 0],
         scales: { x: { time: false, distr: isLog ? 3 : 1 }, y: { range: () => [0, 102] } },
@@ -48,7 +48,7 @@ export function Distribution() {
     }),
     [rows.value, metric, held, lineStyles],
   );
-  const host = useStillChart(chart);
+  const host = useStaticChart(chart);
   return (
     <section class="surface card" aria-label={words.distribution}>
       <h3>{words.distribution}</h3>

@@ -1,10 +1,13 @@
-/** Paints a hundred thousand dots at once, pixel by pixel: a disc held, a ring missed, a cross faulted. */
+/**
+ * Draws 100,000 dots at once, pixel by pixel: a disc for success, a ring for failure, a cross for a
+ * fault.
+ */
 import type uPlot from "uplot";
 
 interface Dots {
   x: Float64Array;
   y: Float64Array;
-  /** Of each dot the place of its colour among `colours`. */
+  /** Index of each dot's color in `colours`. */
   lineStyles: Float64Array;
   good: Float64Array;
   ended: Uint8Array;

@@ -1,7 +1,7 @@
-/** A plane with two axes on which something is painted: drag brushes, a click picks. */
+/** A plane with two axes: a drag selects an area, a click selects a dot. */
 import type uPlot from "uplot";
 import { otherAxis } from "../../core/plots/axes";
-import type { StillChart } from "../../core/plots/staticchart";
+import type { StaticChart } from "../../core/plots/staticchart";
 import type { Brush, Span } from "./points";
 
 export interface Axis {
@@ -23,8 +23,8 @@ interface Plane {
 const SMALLEST_DRAG_PX = 5;
 const CLICK_PX = 3;
 
-export function describePlane({ x, y, paint, onBrush, onPick, watch }: Plane): StillChart {
-  const look: StillChart["look"] = {
+export function describePlane({ x, y, paint, onBrush, onPick, watch }: Plane): StaticChart {
+  const look: StaticChart["look"] = {
     padding: [8, 12, 0, 0],
     cursor: {
       points: { show: false },
@@ -65,7 +65,7 @@ export function describePlane({ x, y, paint, onBrush, onPick, watch }: Plane): S
   return { look, data: [[...x.span], [...y.span]], watch: listen };
 }
 
-/** The brush as it is now, which may have been set elsewhere. */
+/** The present brush, which other parts may also set. */
 export function showBrush(plot: uPlot, brush: Brush | null): void {
   const [left, right] = (brush?.x ?? []).map((at) => plot.valToPos(at, "x"));
   const [bottom, top] = (brush?.y ?? []).map((at) => plot.valToPos(at, "y"));

@@ -1,31 +1,31 @@
 import { formatShare } from "../../core/quantities";
 import { text } from "../../core/text/en";
 import { formatNumber } from "../../core/units";
+import { planes, shownMarks, succeeded } from "./drawnrows";
 import { countCells, cutBins } from "./points";
 import { valuesOf } from "./rows";
 import { shareOf } from "./shares";
-import { good, planes, shownMarks } from "./shown";
 import { axes, brush, rows, setBrush } from "./studies";
 
 const words = text.studies;
 const WIDTH = 320;
 const HEIGHT = 240;
 
-/** From vermilion, none, to blue, all. */
+/** Color from vermilion (0 %) to blue (100 %). */
 const shadeOf = (share: number): string =>
   `color-mix(in oklab, var(--plot-blue) ${Math.round(100 * share)}%, var(--plot-vermilion))`;
 
 const formatSpan = (label: string, edges: readonly number[]): string =>
   `${label}: ${formatNumber(edges[0], 3)} – ${formatNumber(edges.at(-1), 3)}`;
 
-/** Which share of the brushed runs succeeded, over the first plane. */
+/** Success rate of the brushed runs over the first plane. */
 export function SuccessMap() {
   const { x, y, across, up } = planes.s.value;
   const flat = (part: "sx" | "sy", shown: Float64Array, labels: readonly string[] | null) =>
     labels === null ? shown : valuesOf(rows.value, axes.value[part] ?? "");
   const [at, height] = [flat("sx", x, across.labels), flat("sy", y, up.labels)];
   const edges = [cutBins(at, across.isLog), cutBins(height, up.isLog)] as const;
-  const cells = countCells(at, height, good.value, shownMarks.value, edges);
+  const cells = countCells(at, height, succeeded.value, shownMarks.value, edges);
   const [columns, lines] = [edges[0].length - 1, edges[1].length - 1];
   return (
     <section class="surface card" aria-label={words.map}>

@@ -1,20 +1,19 @@
 import { useEffect } from "preact/hooks";
 import { type Study, tableOf } from "../../core/api/studies";
-import { isGoing, JobProgress } from "../../core/jobs/progress";
+import { isJobRunning, JobProgress } from "../../core/jobs/progress";
 import { isObserver } from "../../core/state/control";
 import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
-import { Desk } from "../../core/widgets/desk";
+import { Example, PageWithForm } from "../../core/widgets/pagelayout";
 import { Popup } from "../../core/widgets/popup";
 import { PlaceLink } from "../../runs/list/place";
 import { Distribution } from "./distribution";
+import { brushedCount } from "./drawnrows";
 import { SuccessMap } from "./map";
-import { Picked } from "./picked";
 import { Scatter } from "./scatter";
-import { brushedCount } from "./shown";
+import { SelectedRun } from "./selectedrun";
 import { Start } from "./start";
 import {
-  begin,
   brush,
   cancel,
   chosenName,
@@ -28,29 +27,29 @@ import {
   remove,
   rows,
   setBrush,
-  setLook,
+  setView,
   shownLaw,
+  startNewStudy,
   study,
 } from "./studies";
 import { LawTable, Sensitivity } from "./tables";
 
 const words = text.studies;
 
-function Kept() {
-  const kept = list.value?.saved ?? [];
+function SavedStudies() {
+  const saved = list.value?.saved ?? [];
   return (
     <nav class="surface card menu" aria-label={words.kept}>
       <h3>{words.kept}</h3>
       {list.value === null && problem.value === "" && <p class="hint">{words.loading}</p>}
-      {list.value !== null && kept.length === 0 && <p class="hint">{words.none}</p>}
       <ul>
-        {kept.map((one) => (
+        {saved.map((one) => (
           <li key={one.name} aria-current={one.name === chosenName.value ? "page" : undefined}>
             <PlaceLink to={{ kind: "studies", study: one.name, look: {} }} title={one.title}>
-              <b>{one.name}</b>
+              <b>{one.name}</b> {one.is_example && <Example />}
               <small>
                 {words.state(one.done, one.rows)}
-                {one.job && isGoing(one.job) && `, ${text.jobs.status[one.job.status]}`}
+                {one.job && isJobRunning(one.job) && `, ${text.jobs.status[one.job.status]}`}
               </small>
             </PlaceLink>
           </li>
@@ -60,7 +59,7 @@ function Kept() {
   );
 }
 
-/** How far it is, and what can be done with it. */
+/** Progress of a study, and its commands. */
 function Progress({ found }: { found: Study }) {
   const { job } = found;
   return (
@@ -77,7 +76,7 @@ function Progress({ found }: { found: Study }) {
           class="button"
           title={words.goOnHint}
           disabled={isBusy.value !== ""}
-          onClick={() => void begin({ source: found.name })}
+          onClick={() => void startNewStudy({ source: found.name })}
         >
           {words.goOn}
         </button>
@@ -91,7 +90,7 @@ function Progress({ found }: { found: Study }) {
   );
 }
 
-/** Asks first: its rows cannot be brought back. */
+/** Delete after confirmation: the rows cannot be restored. */
 function Deletion({ found }: { found: Study }) {
   const isGone = isBusy.value === "delete";
   return (
@@ -120,14 +119,16 @@ function Deletion({ found }: { found: Study }) {
   );
 }
 
-function Looked({ found }: { found: Study }) {
+function StudyView({ found }: { found: Study }) {
   const { count, total } = rows.value;
   return (
     <div class="halves">
       <div class="surface card wide">
         <div class="spread">
-          <h3>{found.title}</h3>
-          {!isObserver.value && <Deletion found={found} />}
+          <h3>
+            {found.is_example && <Example />} {found.title}
+          </h3>
+          {!found.is_example && !isObserver.value && <Deletion found={found} />}
         </div>
         <Progress found={found} />
         {count > 0 && (
@@ -138,7 +139,7 @@ function Looked({ found }: { found: Study }) {
               <span class="muted">{words.shown}</span>
               <select
                 value={shownLaw.value || EVERY_LAW}
-                onChange={(event) => setLook({ law: event.currentTarget.value })}
+                onChange={(event) => setView({ law: event.currentTarget.value })}
               >
                 {found.laws.map((law) => (
                   <option key={law} value={law}>
@@ -167,14 +168,14 @@ function Looked({ found }: { found: Study }) {
           <SuccessMap />
           <Distribution />
           <Sensitivity />
-          <Picked />
+          <SelectedRun />
         </>
       )}
     </div>
   );
 }
 
-/** Many runs with settings that vary: begun, followed, looked at, and seen one by one. */
+/** Many runs with varied settings: start, follow, explore, and open single runs. */
 export function StudiesPage() {
   const name = chosenName.value;
   useEffect(() => {
@@ -182,26 +183,26 @@ export function StudiesPage() {
   }, []);
   useEffect(() => {
     void follow(name);
-    return leave;
+    return () => leave(name);
   }, [name]);
   const found = study.value;
   return (
-    <Desk
+    <PageWithForm
       title={words.title}
       lead={words.lead}
       problem={problem.value}
       side={
         <>
-          <Kept />
+          <SavedStudies />
           <Start />
         </>
       }
     >
       {found === null ? (
-        <p class="hint">{name === "" ? words.choose : problem.value === "" && words.loading}</p>
+        <p class="hint">{problem.value === "" && words.loading}</p>
       ) : (
-        <Looked found={found} />
+        <StudyView found={found} />
       )}
-    </Desk>
+    </PageWithForm>
   );
 }

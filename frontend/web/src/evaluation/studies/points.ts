@@ -1,4 +1,4 @@
-/** Dots of a study: scales, what a brush holds, the nearest one, shares over a plane, distributions. */
+/** Dots of a study: scales, brush, nearest dot, success rate over a plane, distributions. */
 
 export type Span = readonly [number, number];
 
@@ -7,7 +7,7 @@ export interface Brush {
   y: Span;
 }
 
-/** Least and greatest number, and the least above zero; null where there is none. */
+/** Smallest and greatest number, and the smallest above zero; null without any. */
 export function extentOf(
   values: Float64Array,
 ): { low: number; high: number; positive: number } | null {
@@ -20,7 +20,7 @@ export function extentOf(
   return low <= high ? { low, high, positive } : null;
 }
 
-/** A scale that holds all values: with a little air, by ratios where that is asked for and can be. */
+/** A scale with a margin around all values, logarithmic if requested and possible. */
 export function scaleOf(values: Float64Array, isLog: boolean): { span: Span; isLog: boolean } {
   const extent = extentOf(values);
   if (extent === null) return { span: [0, 1], isLog: false };
@@ -33,7 +33,7 @@ export function scaleOf(values: Float64Array, isLog: boolean): { span: Span; isL
   return { span: [low - air, high + air], isLog: false };
 }
 
-/** Whether values lie so far apart that equal ratios show them better. */
+/** Whether the range of values suits a logarithmic scale. */
 export function spreadsByRatios(values: Float64Array): boolean {
   const extent = extentOf(values);
   return extent !== null && extent.low > 0 && extent.high > 30 * extent.low;
@@ -46,7 +46,7 @@ export function spreadNames(codes: Float64Array): Float64Array {
   return codes.map((code, index) => code + 0.6 * (((index * LOT) % 1) - 0.5));
 }
 
-/** 1 for each dot in the brush; all of them without one. */
+/** 1 for each dot in the brush; all of them without a brush. */
 export function markBrushed(x: Float64Array, y: Float64Array, brush: Brush | null): Uint8Array {
   const marks = new Uint8Array(x.length);
   if (brush === null) return marks.fill(1);
@@ -59,7 +59,7 @@ export function markBrushed(x: Float64Array, y: Float64Array, brush: Brush | nul
   return marks;
 }
 
-/** The dot nearest to a place, among those that are marked; null where none is within `reach`. */
+/** The nearest marked dot; null if none is within `reach`. */
 export function findNearest(
   x: Float64Array,
   y: Float64Array,
@@ -86,8 +86,8 @@ interface Cell {
 }
 
 /**
- * Ends of bins: between the values where there are few and many of each, as on a grid; else of one
- * width.
+ * Edges of bins: between the values if there are few distinct ones, as on a grid; otherwise equally
+ * spaced.
  */
 export function cutBins(values: Float64Array, isLog: boolean, most = 16): number[] {
   const distinct = new Set<number>();
@@ -113,7 +113,7 @@ export function cutBins(values: Float64Array, isLog: boolean, most = 16): number
   return Array.from({ length: most + 1 }, (_, index) => back(low + index * width));
 }
 
-/** In which bin a value lies; -1 for none. */
+/** Index of a value's bin; -1 for none. */
 export function findBin(edges: readonly number[], value: number): number {
   const last = edges.length - 2;
   if (!(value >= (edges[0] as number)) || value > (edges[last + 1] as number) * (1 + 1e-12))
@@ -127,7 +127,7 @@ export function findBin(edges: readonly number[], value: number): number {
   return low;
 }
 
-/** How many runs, and how many of them succeeded, in each cell of a plane that has some. */
+/** Number of runs and of successful runs in each non-empty cell of a plane. */
 export function countCells(
   x: Float64Array,
   y: Float64Array,
@@ -159,8 +159,8 @@ export function countCells(
 }
 
 /**
- * Below which value which share of the marked runs lies, in percent; what has no value, since it
- * ended in a fault, lies below none.
+ * Cumulative distribution of the marked runs, in percent; a run without a value, which ended in a
+ * fault, counts in the total only.
  */
 export function distribute(
   values: Float64Array,
@@ -168,15 +168,15 @@ export function distribute(
   marks: Uint8Array,
   at: readonly number[],
 ): number[] {
-  const whole: number[] = [];
+  const finiteValues: number[] = [];
   let count = 0;
   for (let index = 0; index < marks.length; index++) {
     if (marks[index] === 0) continue;
     count++;
     const value = values[index] as number;
-    if (ended[index] === 0 && !Number.isNaN(value)) whole.push(value);
+    if (ended[index] === 0 && !Number.isNaN(value)) finiteValues.push(value);
   }
-  const sorted = Float64Array.from(whole).sort();
+  const sorted = Float64Array.from(finiteValues).sort();
   let reached = 0;
   return at.map((limit) => {
     while (reached < sorted.length && (sorted[reached] as number) <= limit) reached++;

@@ -1,14 +1,14 @@
-/** Rows of a study as columns of numbers, unpacked from what the server sends. */
+/** Rows of a study as columns of numbers, unpacked from the server's message. */
 
 interface Column {
   values: Float64Array;
-  /** What its numbers stand for, where they are no numbers. */
+  /** Categories that its numbers stand for, if any. */
   labels: readonly string[] | null;
 }
 
 export interface Rows {
   count: number;
-  /** How many are done; more than `count` where some were drawn by lot. */
+  /** Number of completed rows; more than `count` if the server sent a random subset. */
   total: number;
   columns: ReadonlyMap<string, Column>;
 }

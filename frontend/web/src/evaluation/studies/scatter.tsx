@@ -2,26 +2,34 @@ import { effect } from "@preact/signals";
 import { useMemo } from "preact/hooks";
 import type uPlot from "uplot";
 import { palette } from "../../core/plots/linestyles";
-import { useStillChart } from "../../core/plots/staticchart";
+import { useStaticChart } from "../../core/plots/staticchart";
 import { text } from "../../core/text/en";
 import { paintDots } from "./dots";
+import {
+  brushedCount,
+  endedInFault,
+  lawIndices,
+  lawLineStyles,
+  planes,
+  shownMarks,
+  succeeded,
+} from "./drawnrows";
 import { describePlane, showBrush } from "./frame";
-import { axesOf, nameColumn, type Plane } from "./look";
 import { findNearest } from "./points";
 import { valuesOf } from "./rows";
-import { brushedCount, ended, good, lawLineStyles, lawPlaces, planes, shownMarks } from "./shown";
 import {
   axes,
   brush,
   chosenName,
   fetchRows,
-  pick,
-  picked,
   rows,
+  selectedRows,
+  selectRow,
   setBrush,
-  setLook,
+  setView,
   study,
 } from "./studies";
+import { axesOf, nameColumn, type Plane } from "./studyview";
 
 const words = text.studies;
 const REACH_PX = 14;
@@ -44,7 +52,7 @@ export function ColumnChoice({
         value={axes.value[part]}
         onChange={(event) => {
           const held = brush.peek();
-          setLook({
+          setView({
             [part]: event.currentTarget.value,
             ...(held !== null && part.startsWith(held.plane) && { brush: "" }),
           });
@@ -61,7 +69,7 @@ export function ColumnChoice({
   );
 }
 
-/** The ends of the brush as numbers: what the mouse samples, by keyboard. */
+/** Number fields for the edges of the brush, for keyboard users. */
 function Ends({ plane }: { plane: Plane }) {
   const held = brush.value?.plane === plane ? brush.value : null;
   const { across, up } = planes[plane].value;
@@ -96,7 +104,7 @@ function Ends({ plane }: { plane: Plane }) {
 const nextRow = (step: number): number | null => {
   const numbers = valuesOf(rows.peek(), "row");
   const inBrush = shownMarks.peek();
-  const at = numbers.indexOf(Number(picked.peek().at(-1)?.row ?? -1));
+  const at = numbers.indexOf(Number(selectedRows.peek().at(-1)?.row ?? -1));
   for (let moved = 1; moved <= numbers.length; moved++) {
     const index = (at + step * moved + 2 * numbers.length) % numbers.length;
     if (inBrush[index] === 1) return numbers[index] as number;
@@ -110,12 +118,12 @@ function onKey(event: KeyboardEvent): void {
   else if (step === undefined) return;
   else {
     const row = nextRow(step);
-    if (row !== null) void pick(row);
+    if (row !== null) void selectRow(row);
   }
   event.preventDefault();
 }
 
-/** Any two columns over each other, a dot a run; what is brushed here is followed everywhere. */
+/** Any two columns, one dot per run; the brush applies to all views. */
 export function Scatter({ plane }: { plane: Plane }) {
   const { x, y, across, up } = planes[plane].value;
   const chart = useMemo(
@@ -128,9 +136,9 @@ export function Scatter({ plane }: { plane: Plane }) {
           paintDots(plot, {
             x,
             y,
-            lineStyles: lawPlaces.peek(),
-            good: good.peek(),
-            ended: ended.peek(),
+            lineStyles: lawIndices.peek(),
+            good: succeeded.peek(),
+            ended: endedInFault.peek(),
             marks: shownMarks.peek(),
             colours,
             faint: palette.peek().axis,
@@ -142,18 +150,18 @@ export function Scatter({ plane }: { plane: Plane }) {
           const place = (at: number, height: number) =>
             [plot.valToPos(at, "x"), plot.valToPos(height, "y")] as const;
           const found = findNearest(x, y, shownMarks.peek(), place, [left, top], REACH_PX);
-          if (found !== null) void pick(valuesOf(rows.peek(), "row")[found] as number);
+          if (found !== null) void selectRow(valuesOf(rows.peek(), "row")[found] as number);
           else if (brush.peek() !== null) setBrush(null);
         },
         watch: (plot) =>
           effect(() => {
-            void [lawLineStyles.value, shownMarks.value, picked.value, good.value];
+            void [lawLineStyles.value, shownMarks.value, selectedRows.value, succeeded.value];
             showBrush(plot, brush.value?.plane === plane ? brush.value : null);
           }),
       }),
     [x, y, plane],
   );
-  const host = useStillChart(chart);
+  const host = useStaticChart(chart);
   const missing = x.reduce(
     (sum, value, at) => sum + (Number.isNaN(value + (y[at] ?? 0)) ? 1 : 0),
     0,
@@ -168,7 +176,7 @@ export function Scatter({ plane }: { plane: Plane }) {
         class="studies-canvas"
         ref={host}
         role="application"
-        // biome-ignore lint/a11y/noNoninteractiveTabindex: arrow keys go from dot to dot
+        // biome-ignore lint/a11y/noNoninteractiveTabindex: arrow keys move from dot to dot
         tabIndex={0}
         aria-label={words.dotsLabel(across.label, up.label, brushedCount.value)}
         title={words.dotsHint}
@@ -182,7 +190,7 @@ export function Scatter({ plane }: { plane: Plane }) {
 
 function circlePicked(plot: uPlot, x: Float64Array, y: Float64Array): void {
   const numbers = valuesOf(rows.peek(), "row");
-  for (const { row } of picked.peek()) {
+  for (const { row } of selectedRows.peek()) {
     const index = numbers.indexOf(Number(row));
     if (index < 0) continue;
     const [left, top] = [

@@ -1,46 +1,46 @@
-/** Shares of counted runs with their intervals, which the server estimates. */
+/** Shares of counted runs with their intervals, estimated by the server. */
 import { signal } from "@preact/signals";
 import { type Estimate, estimateShares } from "../../core/api/studies";
 
-const AT_ONCE = 200;
+const BATCH_SIZE = 200;
 const PAUSE_MS = 1000;
 
-/** By `count/total`: an estimate depends on nothing else, and is asked for once. */
-const known = signal<ReadonlyMap<string, Estimate>>(new Map());
-const wanted = new Map<string, readonly [number, number]>();
-let isAsking = false;
+/** By `count/total`, on which alone an estimate depends; each is requested once. */
+const estimates = signal<ReadonlyMap<string, Estimate>>(new Map());
+const pending = new Map<string, readonly [number, number]>();
+let isRequesting = false;
 
-/** The counts that are wanted, some at a time, until each is known; after a failure once more. */
-async function askForWanted(): Promise<void> {
-  while (wanted.size > 0) {
-    const batch = [...wanted].slice(0, AT_ONCE);
+/** The pending counts, requested in batches; after a failure once more. */
+async function requestPending(): Promise<void> {
+  while (pending.size > 0) {
+    const batch = [...pending].slice(0, BATCH_SIZE);
     try {
       const found = await estimateShares(batch.map(([, counts]) => counts));
       const pairs = batch.map(([key], at) => [key, found[at] as Estimate] as const);
-      for (const [key] of batch) wanted.delete(key);
-      known.value = new Map([...known.peek(), ...pairs]);
+      for (const [key] of batch) pending.delete(key);
+      estimates.value = new Map([...estimates.peek(), ...pairs]);
     } catch {
-      wanted.clear(); // those still shown are asked for again with the next change
+      pending.clear(); // counts that are still shown are requested again after the next change
       await new Promise((resolve) => setTimeout(resolve, PAUSE_MS));
     }
   }
 }
 
 /**
- * The estimate of a share; null until the server has sent it, which draws what reads it again.
+ * The estimate of a share; null until the server has sent it, which redraws its readers.
  *
- * count: how many of them succeeded. total: how many runs there are.
+ * count: number of successful runs. total: number of runs.
  */
 export function shareOf(count: number, total: number): Estimate | null {
   const key = `${count}/${total}`;
-  const found = known.value.get(key);
+  const found = estimates.value.get(key);
   if (found !== undefined) return found;
-  wanted.set(key, [count, total]);
-  if (!isAsking) {
-    isAsking = true;
+  pending.set(key, [count, total]);
+  if (!isRequesting) {
+    isRequesting = true;
     queueMicrotask(() =>
-      askForWanted().finally(() => {
-        isAsking = false;
+      requestPending().finally(() => {
+        isRequesting = false;
       }),
     );
   }

@@ -1,39 +1,41 @@
 import { useState } from "preact/hooks";
-import { checkStudy, type StudyPlan, type StudyWish } from "../../core/api/studies";
+import { checkStudy, type StudyChanges, type StudyPlan } from "../../core/api/studies";
 import { describeError } from "../../core/state/actions";
 import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
-import { Boxes, LawBoxes } from "../../core/widgets/desk";
 import { SelectField } from "../../core/widgets/form";
-import { factorOf, nameColumn } from "./look";
-import { begin, isBusy, list, problem } from "./studies";
+import { Boxes, LawBoxes } from "../../core/widgets/pagelayout";
+import { isBusy, list, problem, startNewStudy } from "./studies";
+import { factorOf, nameColumn } from "./studyview";
 
 const words = text.studies;
 const OWN = "";
 const FIRST = "load";
 
-/** Choose, change, check and start a study; an invalid one is reported with line, name and bound. */
+/** Select, change, check and start a study; an error is shown with line, name and bound. */
 export function Start() {
   const [source, setSource] = useState(FIRST);
   const [own, setOwn] = useState("");
   const [name, setName] = useState("");
   const [runs, setRuns] = useState("");
   const [laws, setLaws] = useState<readonly string[]>([]);
-  const [kept, setKept] = useState<readonly string[]>([]);
+  const [chosenMetrics, setChosenMetrics] = useState<readonly string[]>([]);
   const [metric, setMetric] = useState("");
   const [bound, setBound] = useState("");
   const [plan, setPlan] = useState<StudyPlan | null>(null);
   const builtIn = list.value?.built_in ?? [];
   const metrics = list.value?.metrics ?? [];
   const offered = metrics.map((one) => ({ name: one.name, title: nameColumn(one) }));
-  const asked = metrics.find((one) => one.name === metric);
-  const build = (): StudyWish => ({
+  const successMetric = metrics.find((one) => one.name === metric);
+  const build = (): StudyChanges => ({
     ...(source === OWN ? { text: own } : { source }),
     ...(name !== "" && { name }),
     ...(runs !== "" && { runs: Number(runs) }),
     ...(laws.length > 0 && { laws }),
-    ...(kept.length > 0 && { metrics: kept }),
-    ...(asked && { success: { [asked.name]: Number(bound) / factorOf(asked.unit) } }),
+    ...(chosenMetrics.length > 0 && { metrics: chosenMetrics }),
+    ...(successMetric && {
+      success: { [successMetric.name]: Number(bound) / factorOf(successMetric.unit) },
+    }),
   });
   const check = async () => {
     try {
@@ -53,7 +55,7 @@ export function Start() {
       class="surface card stack form"
       onSubmit={(event) => {
         event.preventDefault();
-        void begin(build());
+        void startNewStudy(build());
       }}
     >
       <h3>{words.begin}</h3>
@@ -109,10 +111,14 @@ export function Start() {
       </details>
       <details>
         <summary>
-          {words.metrics}: {kept.length === 0 ? words.asInStudy : kept.length}
+          {words.metrics}: {chosenMetrics.length === 0 ? words.asInStudy : chosenMetrics.length}
         </summary>
         <p class="hint">{words.metricsHint}</p>
-        <Boxes offered={offered} chosen={kept} onChange={(next) => change(() => setKept(next))} />
+        <Boxes
+          offered={offered}
+          chosen={chosenMetrics}
+          onChange={(next) => change(() => setChosenMetrics(next))}
+        />
       </details>
       <SelectField
         label={words.success}

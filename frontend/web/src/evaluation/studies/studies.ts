@@ -1,4 +1,4 @@
-/** The studies of this lab, the one that is looked at, its rows, and what is picked of them. */
+/** The studies of this lab, the selected one, its rows, and the selected run. */
 import { computed, signal } from "@preact/signals";
 import { stopJob } from "../../core/api/jobs";
 import {
@@ -12,18 +12,18 @@ import {
   replayRow,
   type SobolIndices,
   type Study,
+  type StudyChanges,
   type StudyList,
   type StudyRow,
   type StudySummary,
-  type StudyWish,
   startStudy,
 } from "../../core/api/studies";
-import { polling, reading, unlessRefused } from "../../core/jobs/poll";
-import { isGoing } from "../../core/jobs/progress";
-import { asking, showErrorIn } from "../../core/state/actions";
-import { goTo, keepLook, place } from "../../runs/list/place";
-import { type Brushed, chooseAxes, readBrush, writeBrush } from "./look";
+import { createPoll, createReader, nullIfRejected } from "../../core/jobs/poll";
+import { isJobRunning } from "../../core/jobs/progress";
+import { backgroundAttempt, showErrorIn } from "../../core/state/actions";
+import { goTo, place, storeStudyView } from "../../runs/list/place";
 import { NOTHING, type Rows, unpackRows } from "./rows";
+import { chooseAxes, type PlaneBrush, readBrush, writeBrush } from "./studyview";
 
 const GROWTH = 1.25;
 
@@ -32,104 +32,116 @@ export const study = signal<Study | null>(null);
 export const rows = signal<Rows>(NOTHING);
 export const summary = signal<StudySummary | null>(null);
 export const indices = signal<readonly SobolIndices[]>([]);
-export const picked = signal<readonly StudyRow[]>([]);
+export const selectedRows = signal<readonly StudyRow[]>([]);
 export const problem = signal("");
 export const isBusy = signal("");
 
-const look = computed(() => (place.value.kind === "studies" ? place.value.look : {}));
-export const chosenName = computed(() => (place.value.kind === "studies" ? place.value.study : ""));
+const view = computed(() => (place.value.kind === "studies" ? place.value.look : {}));
+/** The study that the address names, else the newest one; before the first the example. */
+export const chosenName = computed(() => {
+  const named = place.value.kind === "studies" ? place.value.study : "";
+  return named || (list.value?.saved[0]?.name ?? "");
+});
 export const axes = computed((): Record<string, string> => {
   const columns = study.value?.columns ?? [];
-  const known = Object.entries(look.value).filter(
+  const known = Object.entries(view.value).filter(
     ([part, name]) => part !== "law" && columns.some((column) => column.name === name),
   );
   return { ...chooseAxes(columns), ...Object.fromEntries(known) };
 });
-/** The law whose runs the planes and the map show, or "" for every one; the first if none is said. */
+/** The law whose runs the planes and the map show, or "" for all; by default the first. */
 export const shownLaw = computed(() => {
   const laws = study.value?.laws ?? [];
-  const said = look.value.law ?? laws[0] ?? "";
-  return laws.includes(said) ? said : "";
+  const requested = view.value.law ?? laws[0] ?? "";
+  return laws.includes(requested) ? requested : "";
 });
 export const EVERY_LAW = "every";
-export const brush = computed(() => readBrush(look.value.brush ?? ""));
+export const brush = computed(() => readBrush(view.value.brush ?? ""));
 
-export const setLook = (changed: Readonly<Record<string, string>>): void =>
-  keepLook({ ...look.peek(), ...changed });
-export const setBrush = (next: Brushed | null): void =>
-  setLook({ brush: next === null ? "" : writeBrush(next) });
+export const setView = (changed: Readonly<Record<string, string>>): void =>
+  storeStudyView(chosenName.peek(), { ...view.peek(), ...changed });
+export const setBrush = (next: PlaneBrush | null): void =>
+  setView({ brush: next === null ? "" : writeBrush(next) });
 
-const attempt = asking(problem);
-const poll = polling(showErrorIn(problem));
-export const { leave } = poll;
+const attempt = backgroundAttempt(problem);
+const poll = createPoll(showErrorIn(problem));
+export const { stop: stopFollowing } = poll;
 
-const readList = reading(showErrorIn(problem));
+/**
+ * Stop following a study; a message about it disappears. Before the list has arrived the name is
+ * empty, and a message of the form stays when the first study appears.
+ */
+export function leave(name: string): void {
+  stopFollowing();
+  if (name !== "") problem.value = "";
+}
+
+const readList = createReader(showErrorIn(problem));
 
 export const openList = () =>
   readList(listStudies, (found) => {
     list.value = found;
   });
 
-const wantedColumns = (names: Readonly<Record<string, string>>): string[] => [
+const columnsToRead = (names: Readonly<Record<string, string>>): string[] => [
   ...new Set(["law", "fault", "succeeded", ...Object.values(names)].filter((name) => name !== "")),
 ];
 
-async function takeRows(name: string): Promise<void> {
-  const packed = await readRows(name, wantedColumns(axes.peek()));
+async function loadRows(name: string): Promise<void> {
+  const packed = await readRows(name, columnsToRead(axes.peek()));
   if (chosenName.peek() === name) rows.value = unpackRows(packed);
 }
 
-export const fetchRows = (name: string) => attempt(() => takeRows(name));
+export const fetchRows = (name: string) => attempt(() => loadRows(name));
 
-async function sumUp(found: Study): Promise<void> {
-  const read = await unlessRefused(readSummary(found.name), showErrorIn(problem));
+async function loadSummary(found: Study): Promise<void> {
+  const read = await nullIfRejected(readSummary(found.name), showErrorIn(problem));
   if (chosenName.peek() !== found.name) return;
   summary.value = read;
   if (found.study.sampling !== "sensitivity") return;
-  const shares = await unlessRefused(readSensitivity(found.name, "succeeded"), () => {});
+  const shares = await nullIfRejected(readSensitivity(found.name, "succeeded"), () => {});
   if (chosenName.peek() === found.name) indices.value = shares ?? [];
 }
 
-/** Looks at a study, and follows it while it grows. */
+/** Select a study, and follow it while it runs. */
 export async function follow(name: string): Promise<void> {
-  leave();
-  problem.value = "";
+  stopFollowing();
   study.value = null;
   rows.value = NOTHING;
   summary.value = null;
   indices.value = [];
-  picked.value = [];
+  selectedRows.value = [];
   if (name === "") return;
-  let shown = 0;
+  let shownCount = 0;
   await poll.follow(
     () => readStudy(name),
     async (found, isLeft) => {
       study.value = found;
-      const isEnded = !isGoing(found.job);
-      if (found.done > 0 && (isEnded || found.done > shown * GROWTH)) {
-        await unlessRefused(takeRows(name), showErrorIn(problem));
+      const isEnded = !isJobRunning(found.job);
+      if (found.done > 0 && (isEnded || found.done > shownCount * GROWTH)) {
+        await nullIfRejected(loadRows(name), showErrorIn(problem));
         if (isLeft()) return false;
-        shown = found.done;
+        shownCount = found.done;
       }
       if (!isEnded) return false;
       void openList();
-      if (found.done > 0) await sumUp(found);
+      if (found.done > 0) await loadSummary(found);
       return true;
     },
   );
 }
 
-/** Whether it was begun. */
-export async function begin(wish: StudyWish): Promise<boolean> {
+/** Returns whether it was started. */
+export async function startNewStudy(changes: StudyChanges): Promise<boolean> {
   problem.value = "";
   isBusy.value = "start";
-  const begun = await attempt(() => startStudy(wish));
+  const started = await attempt(() => startStudy(changes));
   isBusy.value = "";
-  if (begun === null) return false;
+  if (started === null) return false;
   void openList();
-  const isHere = chosenName.peek() === begun.name;
-  goTo({ kind: "studies", study: begun.name, look: isHere ? look.peek() : {} });
-  if (isHere) void follow(begun.name);
+  const isHere = chosenName.peek() === started.name;
+  goTo({ kind: "studies", study: started.name, look: isHere ? view.peek() : {} });
+  if (isHere) void follow(started.name);
   return true;
 }
 
@@ -138,7 +150,7 @@ export async function cancel(): Promise<void> {
   if (job) await attempt(() => stopJob(job.id));
 }
 
-/** Whether it is gone; then nothing is looked at. */
+/** Returns whether it was deleted; then no study is selected. */
 export async function remove(name: string): Promise<boolean> {
   problem.value = "";
   isBusy.value = "delete";
@@ -149,19 +161,19 @@ export async function remove(name: string): Promise<boolean> {
     })) !== null;
   isBusy.value = "";
   if (!isGone) return false;
-  goTo({ kind: "studies", study: "", look: {} });
   await openList();
+  goTo({ kind: "studies", study: "", look: {} });
   return true;
 }
 
 /** The selected row; the previously selected one is kept for an overlay. */
-export async function pick(row: number): Promise<void> {
+export async function selectRow(row: number): Promise<void> {
   const name = chosenName.peek();
-  const known = picked.peek();
+  const known = selectedRows.peek();
   if (known.at(-1)?.row === row) return;
   const found = await attempt(() => readRow(name, row));
   if (found !== null) {
-    picked.value = [...known.filter((one) => one.row !== row), found].slice(-2);
+    selectedRows.value = [...known.filter((one) => one.row !== row), found].slice(-2);
   }
 }
 
@@ -171,25 +183,27 @@ async function record(name: string, row: number): Promise<string | null> {
   const key = `${name} ${row}`;
   const known = runs.get(key);
   if (known !== undefined) return known;
-  const made = await attempt(() => replayRow(name, row));
-  if (made === null) return null;
-  runs.set(key, made.run_id);
-  return made.run_id;
+  const created = await attempt(() => replayRow(name, row));
+  if (created === null) return null;
+  runs.set(key, created.run_id);
+  return created.run_id;
 }
 
-/** Rows as recorded runs: one in 3D, two laid over each other. */
-export async function see(numbers: readonly number[]): Promise<void> {
+/** Record rows as runs: one for 3D, two for an overlay. */
+export async function showRuns(numbers: readonly number[]): Promise<void> {
   const name = chosenName.peek();
   problem.value = "";
   isBusy.value = "see";
-  const made: string[] = [];
+  const created: string[] = [];
   for (const row of numbers) {
     const run = await record(name, row);
     if (run === null) break;
-    made.push(run);
+    created.push(run);
   }
   isBusy.value = "";
-  if (made.length < numbers.length) return;
-  const [first = ""] = made;
-  goTo(made.length > 1 ? { kind: "overlay", runs: made } : { kind: "run", run: first, timeS: 0 });
+  if (created.length < numbers.length) return;
+  const [first = ""] = created;
+  goTo(
+    created.length > 1 ? { kind: "overlay", runs: created } : { kind: "run", run: first, timeS: 0 },
+  );
 }

@@ -1,5 +1,5 @@
 import type { Estimate } from "../../core/api/studies";
-import { isGoing } from "../../core/jobs/progress";
+import { isJobRunning } from "../../core/jobs/progress";
 import { dotOf } from "../../core/plots/linestyles";
 import { formatShare } from "../../core/quantities";
 import { writeFault } from "../../core/state/faults";
@@ -7,14 +7,14 @@ import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { formatNumber } from "../../core/units";
 import { Table } from "../../core/widgets/tables";
-import { factorOf, nameColumn, shownUnit } from "./look";
+import { columnOf, endedInFault, lawLineStyles, marksOf, succeeded } from "./drawnrows";
 import { shareOf } from "./shares";
-import { columnOf, ended, good, lawLineStyles, marksOf } from "./shown";
 import { axes, brush, indices, study, summary } from "./studies";
+import { factorOf, nameColumn, shownUnit } from "./studyview";
 
 const words = text.studies;
 
-/** An estimate with its interval, in a unit by a factor, or that there is no interval. */
+/** An estimate with its interval times a factor, or a note that there is no interval. */
 function formatEstimate({ value, low, high }: Estimate, factor: number, decimals?: number): string {
   const shown = (one: number | null) =>
     one === null ? null : formatNumber(one * factor, decimals ?? 3, decimals);
@@ -25,9 +25,9 @@ const NONE: Estimate = { value: null, low: null, high: null };
 const formatP = (value: number | null | undefined): string =>
   value != null && value < 1e-4 ? words.pSmall : formatNumber(value, 2);
 
-/** How a law did in the brush, with its interval once the server has sent it. */
+/** Results of a law in the brush, with intervals once the server has sent them. */
 function inBrush(place: number): string {
-  const [marks, isGood, isEnded] = [marksOf(place), good.value, ended.value];
+  const [marks, isGood, isEnded] = [marksOf(place), succeeded.value, endedInFault.value];
   let [runs, held] = [0, 0];
   marks.forEach((mark, index) => {
     if (mark === 0) return;
@@ -39,7 +39,7 @@ function inBrush(place: number): string {
   return share === null ? `${held}/${runs}` : `${held}/${runs}: ${formatShare(share)}`;
 }
 
-/** A law with the colour of its runs. place: among the laws of the study. */
+/** A law with the color of its runs. place: index among the laws of the study. */
 export const LawName = ({ law, place }: { law: string; place: number }) => (
   <span class="nowrap">
     <i class="dot" style={dotOf(lawLineStyles.value[place])} aria-hidden="true" />
@@ -59,7 +59,7 @@ export function LawTable() {
       <h3>{words.byLaw}</h3>
       {found === null && (
         <p class="hint" role="status">
-          {isGoing(study.value?.job ?? null) ? words.later : words.summing}
+          {isJobRunning(study.value?.job ?? null) ? words.later : words.summing}
         </p>
       )}
       <Table
@@ -118,7 +118,7 @@ export function LawTable() {
   );
 }
 
-/** Bars of Sobol indices, the greatest first. */
+/** Bars of Sobol indices in descending order. */
 export function Sensitivity() {
   if (indices.value.length === 0) return null;
   return (

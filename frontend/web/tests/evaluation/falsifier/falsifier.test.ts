@@ -10,9 +10,16 @@ import {
 } from "../../../src/evaluation/falsifier/definition";
 
 const { rankLaws } = await import("../../../src/evaluation/falsifier/laws");
-const { baselinesOf, kept, laws, scenario, search } = await import(
-  "../../../src/evaluation/falsifier/falsifier"
-);
+const {
+  baselinesOf,
+  selection: chosen,
+  isExample,
+  savedScenarios: kept,
+  laws,
+  scenario,
+  search,
+  searches,
+} = await import("../../../src/evaluation/falsifier/falsifier");
 const { place, readPlace, writePlace } = await import("../../../src/runs/list/place");
 const { describeJob } = await import("../../../src/core/jobs/progress");
 
@@ -147,9 +154,24 @@ describe("what is looked at", () => {
     place.value = readPlace("?falsifier=all&scenario=impulse");
     expect(scenario.value).toBeNull();
     const one = { title: "An impulse", found: null };
-    kept.value = [{ name: "impulse", title: "An impulse", scenario: one }];
+    kept.value = [{ name: "impulse", title: "An impulse", is_example: false, scenario: one }];
     expect(scenario.value).toEqual(one);
     expect(laws.value).toEqual(["ndobc", "fl"]);
+  });
+
+  test("the example is shown where the address names nothing, until there is a search", () => {
+    place.value = readPlace("?falsifier=all");
+    kept.value = searches.value = search.value = null;
+    expect(chosen.value).toMatchObject({ search: "", scenario: "" });
+    const one = { title: "An impulse", found: null };
+    searches.value = [];
+    kept.value = [{ name: "impulse", title: "An impulse", is_example: true, scenario: one }];
+    expect([scenario.value, isExample.value]).toEqual([one, true]);
+    searches.value = [{ id: "3f2a" }, { id: "0b1c" }] as unknown as Search[];
+    expect(chosen.value).toMatchObject({ search: "3f2a", scenario: "" });
+    expect(isExample.value).toBe(false);
+    place.value = readPlace("?falsifier=all&scenario=impulse");
+    expect(isExample.value).toBe(true);
   });
 });
 

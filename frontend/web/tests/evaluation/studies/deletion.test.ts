@@ -35,6 +35,17 @@ it("a deleted study is left, and the list is reloaded", async () => {
   expect(studies.isBusy.value).toBe("");
 });
 
+it("without a name in the address the newest study is shown, or the example", async () => {
+  const studies = await load();
+  const { place } = await import("../../../src/runs/list/place");
+  place.value = { kind: "studies", study: "", look: {} };
+  expect(studies.chosenName.value).toBe("");
+  studies.list.value = { built_in: [], saved: [{ name: "example" }], metrics: [] } as never;
+  expect(studies.chosenName.value).toBe("example");
+  studies.setView({ law: "fl" });
+  expect(place.value).toMatchObject({ study: "example", look: { law: "fl" } });
+});
+
 it("one that is not deleted stays where it is, and why is said", async () => {
   const studies = await load();
   refusal = "Study mine is being run by another process.";

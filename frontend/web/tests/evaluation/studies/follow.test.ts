@@ -9,7 +9,7 @@ const api = {
   listStudies: vi.fn(),
 };
 vi.doMock("../../../src/core/api/studies", async (load) => ({ ...(await load<object>()), ...api }));
-const { follow, indices } = await import("../../../src/evaluation/studies/studies");
+const { follow, indices, leave, problem } = await import("../../../src/evaluation/studies/studies");
 const { place } = await import("../../../src/runs/list/place");
 
 const ended = (name: string) => ({
@@ -42,4 +42,15 @@ test("the shares of a study that is left before they are worked out stand under 
   arrive([{ parameter: "of the first" }]);
   await first;
   expect(indices.value).toEqual([{ parameter: "of the second" }]);
+});
+
+test("a message of the form stays when the list arrives, and disappears with its study", async () => {
+  api.readStudy.mockImplementation(async (name: string) => ({ ...ended(name), done: 0 }));
+  api.listStudies.mockResolvedValue({ saved: [] });
+  problem.value = "line 2: runs is 0";
+  leave("");
+  await look("first");
+  expect(problem.value).toBe("line 2: runs is 0");
+  leave("first");
+  expect(problem.value).toBe("");
 });

@@ -2,13 +2,6 @@ import { describe, expect, it } from "vitest";
 import { formatPercents } from "../../../src/core/quantities";
 import { packColour } from "../../../src/evaluation/studies/dots";
 import {
-  chooseAxes,
-  factorOf,
-  readBrush,
-  shownUnit,
-  writeBrush,
-} from "../../../src/evaluation/studies/look";
-import {
   countCells,
   cutBins,
   distribute,
@@ -19,6 +12,13 @@ import {
   spreadNames,
 } from "../../../src/evaluation/studies/points";
 import { unpackRows } from "../../../src/evaluation/studies/rows";
+import {
+  chooseAxes,
+  factorOf,
+  readBrush,
+  shownUnit,
+  writeBrush,
+} from "../../../src/evaluation/studies/studyview";
 
 const numbers = (...values: number[]) => Float64Array.from(values);
 const all = (count: number) => new Uint8Array(count).fill(1);

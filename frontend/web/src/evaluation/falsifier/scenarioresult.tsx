@@ -1,16 +1,26 @@
 import { useState } from "preact/hooks";
 import { type Scenario, scenarioFileOf, searchFileOf } from "../../core/api/falsifications";
-import { isGoing, JobProgress } from "../../core/jobs/progress";
+import { isJobRunning, JobProgress } from "../../core/jobs/progress";
 import { formatShare } from "../../core/quantities";
 import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { formatNumber } from "../../core/units";
+import { Example } from "../../core/widgets/pagelayout";
 import { copyText } from "../../lab/script/copybutton";
-import { cancel, chosen, findingOf, isBusy, keep, search, shown } from "./falsifier";
+import {
+  cancel,
+  findingOf,
+  isBusy,
+  isExample,
+  saveSelection,
+  search,
+  selection,
+  shownTrace,
+} from "./falsifier";
 
 const words = text.falsifier;
 
-/** A link to what is looked at; of a search one that lasts as long as the lab. */
+/** A link to the selection; the link to a search is valid as long as the lab runs. */
 function Link() {
   const [message, setMessage] = useState("");
   const copy = async () => {
@@ -33,7 +43,7 @@ function Keep({ offered }: { offered: string }) {
       class="row falsifier-acts"
       onSubmit={(event) => {
         event.preventDefault();
-        void keep(name);
+        void saveSelection(name);
       }}
     >
       <label class="form" title={words.nameHint}>
@@ -54,10 +64,10 @@ function Keep({ offered }: { offered: string }) {
   );
 }
 
-/** What was found in words: who is hurt how, by what, at which run of the search. */
+/** The result in words: the law, the failure, the load, and the run of the search. */
 function Facts({ scenario }: { scenario: Scenario }) {
   const finding = findingOf(scenario);
-  const parts = shown.value?.description ?? [];
+  const parts = shownTrace.value?.description ?? [];
   return (
     <>
       {finding && (
@@ -69,12 +79,12 @@ function Facts({ scenario }: { scenario: Scenario }) {
           </span>
         </p>
       )}
-      {finding?.neighbors && shown.value?.neighborhood && (
+      {finding?.neighbors && shownTrace.value?.neighborhood && (
         <p title={words.neighborhoodHint}>
           {words.neighborhood(
             finding.neighbors_hurt ?? 0,
             finding.neighbors,
-            formatShare(shown.value.neighborhood),
+            formatShare(shownTrace.value.neighborhood),
           )}
         </p>
       )}
@@ -87,16 +97,18 @@ function Facts({ scenario }: { scenario: Scenario }) {
   );
 }
 
-/** A scenario with a name, or a search: how far it is, and what it has found. */
-export function Found({ scenario }: { scenario: Scenario | null }) {
-  const name = chosen.value.scenario;
+/** A saved scenario, or a search with its progress and result. */
+export function ScenarioResult({ scenario }: { scenario: Scenario | null }) {
+  const name = selection.value.scenario;
   const at = name === "" ? search.value : null;
-  const isUnderWay = isGoing(at);
+  const isUnderWay = isJobRunning(at);
   if (scenario === null && at === null) return null;
   const title = (scenario && findingOf(scenario)?.adversary) ?? scenario?.title ?? "";
   return (
     <section class="surface card wide" aria-label={name || at?.title}>
-      <h3>{name !== "" ? `${name}: ${title}` : at?.title}</h3>
+      <h3>
+        {isExample.value && <Example />} {name !== "" ? `${name}: ${title}` : at?.title}
+      </h3>
       {at && (
         <JobProgress
           job={at}

@@ -1,18 +1,18 @@
-/** The rows as they are drawn: shown units, who is in the brush, which colour, which law. */
+/** The rows as drawn: values on screen, brush, colors, law. */
 import { computed } from "@preact/signals";
 import type { StudyColumn } from "../../core/api/studies";
 import { lineStylesOfLaws } from "../../core/plots/linestyles";
 import type { Axis } from "./frame";
-import { factorOf, nameColumn, type Plane } from "./look";
 import { markBrushed, scaleOf, spreadNames, spreadsByRatios } from "./points";
 import { type Rows, valuesOf } from "./rows";
 import { axes, brush, rows, shownLaw, study } from "./studies";
+import { factorOf, nameColumn, type Plane } from "./studyview";
 
 export const columnOf = (name: string): StudyColumn | undefined =>
   study.value?.columns.find((column) => column.name === name);
 
-/** Values as they are read on screen; names spread about their places. */
-export function show(found: Rows, name: string): Float64Array {
+/** Values on screen; categories jittered around their positions. */
+export function screenValues(found: Rows, name: string): Float64Array {
   const column = found.columns.get(name);
   if (column === undefined) return new Float64Array(found.count).fill(Number.NaN);
   if (column.labels !== null) return spreadNames(column.values);
@@ -32,28 +32,28 @@ const buildPlane = (plane: Plane) =>
   computed(() => {
     const found = rows.value;
     const [xName, yName] = [axes.value[`${plane}x`] ?? "", axes.value[`${plane}y`] ?? ""];
-    const [x, y] = [show(found, xName), show(found, yName)];
+    const [x, y] = [screenValues(found, xName), screenValues(found, yName)];
     return { x, y, across: buildAxis(found, xName, x), up: buildAxis(found, yName, y) };
   });
 
 export const planes = { s: buildPlane("s"), t: buildPlane("t") } as const;
 
 export const marks = computed(() => {
-  const held = brush.value;
-  const { x, y } = planes[held?.plane ?? "s"].value;
-  return markBrushed(x, y, held);
+  const activeBrush = brush.value;
+  const { x, y } = planes[activeBrush?.plane ?? "s"].value;
+  return markBrushed(x, y, activeBrush);
 });
 
 export const brushedCount = computed(() => marks.value.reduce((sum, mark) => sum + mark, 0));
 
 /** 1 for a run that ended in a fault. */
-export const ended = computed(() =>
+export const endedInFault = computed(() =>
   Uint8Array.from(valuesOf(rows.value, "fault"), (code) => (Number.isNaN(code) ? 0 : 1)),
 );
-export const good = computed(() => valuesOf(rows.value, "succeeded"));
+export const succeeded = computed(() => valuesOf(rows.value, "succeeded"));
 
-/** Of each run the place of its law in the study's order. */
-export const lawPlaces = computed(() => {
+/** Index of each run's law in the study. */
+export const lawIndices = computed(() => {
   const column = rows.value.columns.get("law");
   const order = study.value?.laws ?? [];
   const places = (column?.labels ?? []).map((law) => order.indexOf(law));
@@ -63,14 +63,16 @@ export const lawPlaces = computed(() => {
 /** The line styles of the laws of the study, in its order. */
 export const lawLineStyles = computed(() => lineStylesOfLaws(study.value?.laws ?? []));
 
-/** Of the brushed runs those of the law that is shown: laws on one draw lie at one place. */
+/**
+ * The brushed runs of the law that is shown: with the same sample, dots of several laws coincide.
+ */
 export const shownMarks = computed(() => {
   const place = study.value?.laws.indexOf(shownLaw.value) ?? -1;
   return place < 0 ? marks.value : marksOf(place);
 });
 
-/** The marks of one law's runs alone. */
+/** The marks of one law's runs only. */
 export const marksOf = (place: number): Uint8Array => {
-  const laws = lawPlaces.value;
+  const laws = lawIndices.value;
   return marks.value.map((mark, index) => (laws[index] === place ? mark : 0));
 };

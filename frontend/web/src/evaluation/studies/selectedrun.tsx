@@ -3,8 +3,8 @@ import { writeFault } from "../../core/state/faults";
 import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { formatNumber } from "../../core/units";
-import { factorOf, nameColumn } from "./look";
-import { isBusy, picked, see, study } from "./studies";
+import { isBusy, selectedRows, showRuns, study } from "./studies";
+import { factorOf, nameColumn } from "./studyview";
 
 const words = text.studies;
 
@@ -22,9 +22,9 @@ function Cell({ row, name, unit }: { row: StudyRow; name: string; unit: string }
   );
 }
 
-/** What was picked: how it was set, how it went, and the way to its 3D. */
-export function Picked() {
-  const found = picked.value;
+/** The selected run: settings, result, and a link to its 3D view. */
+export function SelectedRun() {
+  const found = selectedRows.value;
   const columns = (study.value?.columns ?? []).filter(
     ({ role }) => role === "varied" || role === "metric",
   );
@@ -54,7 +54,7 @@ export function Picked() {
                       class="button"
                       title={words.seeHint}
                       disabled={isBusy.value !== ""}
-                      onClick={() => void see([Number(row.row)])}
+                      onClick={() => void showRuns([Number(row.row)])}
                     >
                       {words.see}
                     </button>
@@ -78,7 +78,7 @@ export function Picked() {
               type="button"
               class="button"
               disabled={isBusy.value !== ""}
-              onClick={() => void see(numbers)}
+              onClick={() => void showRuns(numbers)}
             >
               {words.overlay}
             </button>
