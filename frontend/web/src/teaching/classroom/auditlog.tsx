@@ -4,22 +4,22 @@ import { text } from "../../core/text/en";
 import { ErrorLine, SelectField } from "../../core/widgets/form";
 import { Pager, Table } from "../../core/widgets/tables";
 import {
-  askFor,
   auditPage,
+  auditQuery,
   countPages,
-  describeEnd,
+  describeResult,
   formatTime,
+  goToPage,
   isReading,
   nameKind,
   problem,
-  turnTo,
-  wish,
+  queryAudit,
 } from "./audit";
 
 const words = text.classroom.audit;
 const SHARED = "lab";
 
-/** Where it was: the session, and its tick then. */
+/** The session, and its tick at that time. */
 function Place({ line }: { line: AuditLine }) {
   if (line.session === null) return null;
   return (
@@ -47,14 +47,14 @@ function Line({ line, now }: { line: AuditLine; now: Date }) {
       <td class="breaks audit-place">
         <Place line={line} />
       </td>
-      <td class={`audit-end ${line.refused ? "bad" : "muted"}`}>{describeEnd(line)}</td>
+      <td class={`audit-end ${line.refused ? "bad" : "muted"}`}>{describeResult(line)}</td>
     </tr>
   );
 }
 
 function Filters() {
   const { people = [], kinds = [] } = auditPage.value ?? {};
-  const { person, kind, onlyRefused } = wish.value;
+  const { person, kind, onlyRefused } = auditQuery.value;
   return (
     <div class="row form audit-filters">
       <SelectField
@@ -62,20 +62,20 @@ function Filters() {
         value={person}
         options={["", ...people.map(({ id }) => id)]}
         name={(one) => people.find(({ id }) => id === one)?.name ?? words.allPersons}
-        onChoose={(chosen) => void askFor({ person: chosen })}
+        onChoose={(chosen) => void queryAudit({ person: chosen })}
       />
       <SelectField
         label={words.kind}
         value={kind}
         options={["", ...kinds]}
         name={(one) => (one === "" ? words.everyKind : nameKind(one))}
-        onChoose={(chosen) => void askFor({ kind: chosen })}
+        onChoose={(chosen) => void queryAudit({ kind: chosen })}
       />
       <label class="row">
         <input
           type="checkbox"
           checked={onlyRefused}
-          onChange={(event) => void askFor({ onlyRefused: event.currentTarget.checked })}
+          onChange={(event) => void queryAudit({ onlyRefused: event.currentTarget.checked })}
         />
         <span>{words.onlyRefused}</span>
       </label>
@@ -83,7 +83,7 @@ function Filters() {
         type="button"
         class="button is-small end"
         aria-disabled={isReading.value}
-        onClick={() => void askFor()}
+        onClick={() => void queryAudit()}
       >
         {words.newest}
       </button>
@@ -92,7 +92,7 @@ function Filters() {
 }
 
 function Pages({ total }: { total: number }) {
-  const { page } = wish.value;
+  const { page } = auditQuery.value;
   const pages = countPages(total);
   return (
     <Pager
@@ -101,7 +101,7 @@ function Pages({ total }: { total: number }) {
       pages={pages}
       back={words.newer}
       on={words.older}
-      onTurn={(to) => void turnTo(to)}
+      onTurn={(to) => void goToPage(to)}
     >
       {words.page(page, pages, total)}
     </Pager>
@@ -111,7 +111,7 @@ function Pages({ total }: { total: number }) {
 function Lines() {
   const page = auditPage.value;
   useEffect(() => {
-    void askFor();
+    void queryAudit();
   }, []);
   const now = new Date();
   return (
@@ -137,7 +137,9 @@ function Lines() {
   );
 }
 
-/** Who did what, where and at which tick, for the instructor; read when it is opened. */
+/**
+ * The log of all actions with user, session and tick, for the instructor; read when it is opened.
+ */
 export function AuditLog({ isOpen, onToggle }: { isOpen: boolean; onToggle: () => void }) {
   return (
     <section class="stack">

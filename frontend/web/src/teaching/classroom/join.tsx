@@ -1,8 +1,8 @@
 import { signal } from "@preact/signals";
 import { useId, useState } from "preact/hooks";
-import { comeBack, join, login } from "../../core/api/access";
+import { join, login, rejoin } from "../../core/api/access";
 import { access } from "../../core/state/control";
-import { LONGEST_NAME, personName, rememberPerson } from "../../core/state/preferences";
+import { MAX_NAME_LENGTH, personName, setPersonName } from "../../core/state/preferences";
 import { text } from "../../core/text/en";
 
 const words = text.classroom;
@@ -16,7 +16,7 @@ function StudentForm({ enter }: EnterProps) {
     event.preventDefault();
     enter(async () => {
       const joined = await join(name.trim(), code);
-      rememberPerson(joined.name);
+      setPersonName(joined.name);
       rejoinCode.value = joined.rejoin_code;
     });
   };
@@ -27,7 +27,7 @@ function StudentForm({ enter }: EnterProps) {
         id={`${id}-name`}
         type="text"
         required
-        maxLength={LONGEST_NAME}
+        maxLength={MAX_NAME_LENGTH}
         autocomplete="name"
         value={name}
         onInput={(event) => setName(event.currentTarget.value)}
@@ -54,11 +54,11 @@ function StudentForm({ enter }: EnterProps) {
 
 const WAYS = ["student", "back", "instructor"] as const;
 
-/** How a user enters a class: as a new student, with a rejoin code, or as the instructor. */
+/** Ways to enter a class: as a new student, with a rejoin code, or as the instructor. */
 export function Join({ enter }: EnterProps) {
   const [chosen, choose] = useState<(typeof WAYS)[number]>("student");
   const comeIn = async (code: string) => {
-    rememberPerson((await comeBack(code)).name);
+    setPersonName((await rejoin(code)).name);
   };
   return (
     <>
@@ -77,19 +77,19 @@ export function Join({ enter }: EnterProps) {
   );
 }
 
-/** How one gets in. */
+/** Way to enter. */
 interface EnterProps {
-  /** Tells what went wrong, or lets the page in. */
+  /** Shows the error, or opens the page. */
   enter: (way: () => Promise<unknown>) => void;
 }
 
 interface SecretProps extends EnterProps {
-  /** What is asked for. */
+  /** Label of the field. */
   label: string;
   send: (secret: string) => Promise<unknown>;
 }
 
-/** A secret, a token or a code that is one's own. */
+/** A secret, a token or a rejoin code. */
 export function SecretForm({ label, enter, send }: SecretProps) {
   const id = useId();
   const [secret, setSecret] = useState("");
@@ -117,7 +117,7 @@ export function SecretForm({ label, enter, send }: SecretProps) {
   );
 }
 
-// The class code that a QR code put behind the # of the address, where no server sees it.
+// The class code that a QR code puts behind the # of the address, which is not sent to the server.
 
 const FRAGMENT = "#join=";
 

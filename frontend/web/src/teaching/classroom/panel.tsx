@@ -14,7 +14,7 @@ import {
   restorePerson,
 } from "../../core/api/access";
 import { explain } from "../../core/state/actions";
-import { access, isClass, isInstructor, learnAccess } from "../../core/state/control";
+import { access, isClass, isInstructor, updateAccess } from "../../core/state/control";
 import { phase } from "../../core/state/session";
 import { text } from "../../core/text/en";
 import { ErrorLine } from "../../core/widgets/form";
@@ -30,7 +30,7 @@ function close(): void {
   isOpen.value = false;
 }
 
-/** Who is here, who waits, whose sessions; what only the instructor may, for the instructor. */
+/** Members, queue and sessions of a class; for the instructor also the commands. */
 function Inside() {
   const classState = useSignal<ClassState | null>(null);
   const code = useSignal<ClassCode | null>(null);
@@ -157,7 +157,7 @@ function Inside() {
           onClick={() =>
             void attempt(async () => {
               await leave();
-              await learnAccess();
+              await updateAccess();
               close();
               phase.value = "locked";
             })
@@ -200,7 +200,7 @@ export function ClassButton() {
 const isOpen = signal(false);
 const READ_MS = 2000;
 
-/** A new class code, to be read and scanned from a wall. */
+/** A new class code, large, as text and QR code for projection. */
 function Code({ code }: { code: ClassCode }) {
   return (
     <figure class="class-qr">

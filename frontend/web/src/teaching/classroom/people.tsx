@@ -1,4 +1,4 @@
-/** The people of a class, their queue for the control lease, and their private sessions. */
+/** The users of a class, their queue for the control lease, and their private sessions. */
 import type { ClassState } from "../../core/api/access";
 import { access, handOver, isInstructor, lock, queue } from "../../core/state/control";
 import { text } from "../../core/text/en";
@@ -7,7 +7,7 @@ import { Table } from "../../core/widgets/tables";
 const words = text.classroom;
 const SHARED = "lab";
 
-/** Who is here, and what each sees; the instructor removes people. */
+/** The members, and the session that each sees; the instructor can remove members. */
 export function People({
   people,
   remove,
@@ -56,7 +56,7 @@ export function People({
   );
 }
 
-/** Whom the instructor has removed, to be let in again. */
+/** Removed users, whom the instructor can admit again. */
 export function Removed({
   removed,
   restore,
@@ -88,7 +88,7 @@ export function Removed({
   );
 }
 
-/** Who waits for control, the first first; the instructor gives it to any, and locks it. */
+/** The queue for control; the instructor can pass control to any user in it, and lock it. */
 export function Waiting() {
   const waiting = queue.value?.waiting ?? [];
   return (
@@ -128,7 +128,7 @@ export function Waiting() {
   );
 }
 
-/** The private sessions that one may see. */
+/** The private sessions that this user may open. */
 export function Sessions({
   sessions,
   end,

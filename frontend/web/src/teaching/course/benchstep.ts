@@ -1,51 +1,60 @@
-/** An experiment on a bench: what keeps it from being begun, what is done by hand, and how it ends. */
+/** An experiment on a bench: conditions before the start, manual actions, and its end. */
 import type { Step } from "../../core/api/course";
 import type { BenchState, SessionState } from "../../core/api/types";
 import { type Advice, adviceFor } from "../../hardware/status";
 
-/** What a bench may be asked for by a step: to be set to it, and to run. */
+/** Whether a bench is ready for a step: to be configured, and to run. */
 interface Readiness {
-  /** It stands, and takes a configuration. */
-  mayBeSet: boolean;
-  /** It would start at once. */
-  mayRun: boolean;
-  /** What is to be done before it runs; null where nothing is, and while it runs. */
-  before: Advice | null;
+  /** It is stopped, and accepts a configuration. */
+  canConfigure: boolean;
+  /** A start command would take effect at once. */
+  canRun: boolean;
+  /** Manual action before it runs; null for none, and while it runs. */
+  nextAction: Advice | null;
 }
 
-const READY: Readiness = { mayBeSet: true, mayRun: true, before: null };
-const STANDING = ["off", "ready"] as const;
+const READY: Readiness = { canConfigure: true, canRun: true, nextAction: null };
+const STOPPED_STATES = ["off", "ready"] as const;
 
-/** A simulation is always ready. held: the dead-man's switch. */
-export function readinessOf(bench: BenchState | null, held: boolean): Readiness {
+/** A simulation is always ready. isSwitchHeld: the dead-man's switch. */
+export function readinessOf(bench: BenchState | null, isSwitchHeld: boolean): Readiness {
   if (bench === null) return READY;
-  const advice = adviceFor(bench, held);
-  const stands = bench.loop.state === "ticking" && STANDING.some((one) => one === bench.status);
-  const mayRun = advice === "run";
-  return { mayBeSet: stands, mayRun, before: mayRun || advice === "running" ? null : advice };
+  const advice = adviceFor(bench, isSwitchHeld);
+  const isStopped =
+    bench.loop.state === "ticking" && STOPPED_STATES.some((one) => one === bench.status);
+  const canRun = advice === "run";
+  return {
+    canConfigure: isStopped,
+    canRun,
+    nextAction: canRun || advice === "running" ? null : advice,
+  };
 }
 
-/** Whether a step can be done where one is. */
-export const isDoneHere = (of: Step, bench: BenchState | null): boolean =>
-  bench === null || of.bench !== null;
+/** Whether a step can be done on this plant. */
+export const isPossibleOn = (step: Step, bench: BenchState | null): boolean =>
+  bench === null || step.bench !== null;
 
-/** What is asked of its run there. */
-export const askedOf = (of: Step, bench: BenchState | null): readonly string[] =>
-  (bench !== null && of.bench?.criteria) || of.criteria;
+/** Whether step and session are both of an arm, or both of a single joint. */
+export const isOfSession = (step: Step, state: SessionState | null): boolean =>
+  state === null || (step.arm !== "") === ((state.configuration.arm ?? null) !== null);
 
-type Hand = NonNullable<Step["bench"]>["manual_loads"][number];
-const STILL_SHOWN_S = 2;
+/** Settings of a step's run on this plant. */
+export const criteriaOf = (step: Step, bench: BenchState | null): readonly string[] =>
+  (bench !== null && step.bench?.criteria) || step.criteria;
 
-/** What is to be done by hand next, or was due a moment ago; null where nothing is left. */
-export const handDue = (of: Step, timeS: number): Hand | null =>
-  of.bench?.manual_loads.find(({ time_s: at }) => timeS < at + STILL_SHOWN_S) ?? null;
+type ManualLoad = NonNullable<Step["bench"]>["manual_loads"][number];
+const SHOWN_AFTER_S = 2;
 
-export type Cut = "control" | "stopped";
+/** The next manual action, or the one that was just due; null if none is left. */
+export const dueManualLoad = (step: Step, timeS: number): ManualLoad | null =>
+  step.bench?.manual_loads.find(({ time_s: at }) => timeS < at + SHOWN_AFTER_S) ?? null;
+
+export type RunInterruption = "control" | "stopped";
 
 /** Why a run will not be completed; null while it continues. hasControl: this page may command. */
-export function findCut(state: SessionState, hasControl: boolean): Cut | null {
+export function findInterruption(state: SessionState, hasControl: boolean): RunInterruption | null {
   const { bench } = state;
   if (!hasControl) return "control";
-  const stands = bench !== null && bench.status !== "run" && state.time_s > 0;
-  return stands && bench.status !== "fault" ? "stopped" : null;
+  const isStopped = bench !== null && bench.status !== "run" && state.time_s > 0;
+  return isStopped && bench.status !== "fault" ? "stopped" : null;
 }

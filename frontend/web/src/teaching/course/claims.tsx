@@ -4,27 +4,27 @@ import { kinds } from "../../core/state/kinds";
 import { text } from "../../core/text/en";
 import { formatNumber } from "../../core/units";
 import { ErrorLine } from "../../core/widgets/form";
-import { ErrorCourse } from "./course";
-import { runFigureApart, type Tried } from "./trial";
+import { ErrorPlot } from "./course";
+import { type FigureResult, runFigureInPrivate } from "./trial";
 
 const words = text.claims;
 const FIGURES: readonly Figure[] = ["4a", "4b", "5"];
 
 interface Trial {
   figure: Figure;
-  tried: Tried | null;
+  result: FigureResult | null;
   problem: string;
 }
 
 const trial = signal<Trial | null>(null);
 
 async function check(figure: Figure): Promise<void> {
-  trial.value = { figure, tried: null, problem: "" };
+  trial.value = { figure, result: null, problem: "" };
   try {
-    const tried = await runFigureApart(figure);
-    if (trial.peek()?.figure === figure) trial.value = { figure, tried, problem: "" };
+    const result = await runFigureInPrivate(figure);
+    if (trial.peek()?.figure === figure) trial.value = { figure, result, problem: "" };
   } catch (error) {
-    trial.value = { figure, tried: null, problem: error instanceof Error ? error.message : "" };
+    trial.value = { figure, result: null, problem: error instanceof Error ? error.message : "" };
   }
 }
 
@@ -65,8 +65,8 @@ function NumbersTable({ numbers }: Pick<Claim, "numbers">) {
   );
 }
 
-function Result({ figure, tried }: { figure: Figure; tried: Tried }) {
-  const { course, claim } = tried;
+function Result({ figure, result }: { figure: Figure; result: FigureResult }) {
+  const { course, claim } = result;
   const areAll = claim.parts.every(({ holds }) => holds);
   return (
     <section class="stack" role="status" aria-label={words.result(text.figures.name[figure])}>
@@ -74,7 +74,7 @@ function Result({ figure, tried }: { figure: Figure; tried: Tried }) {
         <strong>{words.claim}</strong>{" "}
         {kinds.value?.figures.find(({ key }) => key === figure)?.claim}
       </blockquote>
-      <ErrorCourse course={course} />
+      <ErrorPlot course={course} />
       <NumbersTable numbers={claim.numbers} />
       <ul class="small findings">
         {claim.parts.map(({ part, holds }) => (
@@ -97,10 +97,10 @@ function Result({ figure, tried }: { figure: Figure; tried: Tried }) {
   );
 }
 
-/** The paper's figures as experiments of one press, compared with the paper's claims. */
+/** The paper's figures as experiments with one button each, compared with the paper's claims. */
 export function Claims() {
   const now = trial.value;
-  const isRunning = now !== null && now.tried === null && now.problem === "";
+  const isRunning = now !== null && now.result === null && now.problem === "";
   return (
     <div class="stack">
       <h3>{words.heading}</h3>
@@ -121,7 +121,7 @@ export function Claims() {
       </div>
       {isRunning && <p role="status">{words.running(text.figures.name[now.figure])}</p>}
       <ErrorLine>{now?.problem ? words.failed(now.problem) : ""}</ErrorLine>
-      {now?.tried && <Result figure={now.figure} tried={now.tried} />}
+      {now?.result && <Result figure={now.figure} result={now.result} />}
     </div>
   );
 }

@@ -1,6 +1,6 @@
 import { text } from "../../core/text/en";
 import { toDegrees } from "../../core/units";
-import type { Course } from "./outcome";
+import type { ErrorHistory } from "./outcome";
 
 const WIDTH = 460;
 const HEIGHT = 108;
@@ -35,8 +35,8 @@ function envelope(timeS: readonly number[], errors: readonly number[]): string {
   }).join(" ");
 }
 
-/** How the error of both laws went, small and logarithmic: the whole experiment in one look. */
-export function ErrorCourse({ course }: { course: Course }) {
+/** The errors of both laws over the whole experiment, small and logarithmic. */
+export function ErrorPlot({ course }: { course: ErrorHistory }) {
   const [fl, ndobc] = course.positionRad;
   return (
     <svg

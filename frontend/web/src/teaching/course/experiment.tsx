@@ -1,4 +1,4 @@
-/** A session is set up and run, and its record judged. */
+/** An experiment step: set up a session, run it, and assess its record. */
 import { useEffect } from "preact/hooks";
 import type { Step } from "../../core/api/course";
 import { mayCommand } from "../../core/state/control";
@@ -6,28 +6,30 @@ import { bench, session } from "../../core/state/session";
 import { text } from "../../core/text/en";
 import { Banner } from "../../core/widgets/banner";
 import { Problem } from "../../core/widgets/form";
-import { isHeld } from "../../hardware/hold";
+import { isSwitchHeld } from "../../hardware/hold";
 import { PlaceLink } from "../../runs/list/place";
-import { askedOf, handDue, isDoneHere, readinessOf } from "./benchstep";
+import { criteriaOf, dueManualLoad, isOfSession, isPossibleOn, readinessOf } from "./benchstep";
 import {
+  activeRun,
   CONTROL_OF_LESSON,
   follow,
   isBusy,
-  judged,
-  restore,
+  lastAssessment,
+  restoreLab,
   resultsOf,
   resume,
   run,
   setUp,
-  type Task,
-  trial,
+  type TaskProps,
 } from "./lesson";
 import { CutOff, Obstacle } from "./obstacle";
 import { Results } from "./results";
 
 const words = text.lesson;
 
-/** In the lab: the settings are those of an exercise, and a press restores the earlier ones. */
+/**
+ * In the lab: shows that the settings are those of an exercise, with a button for the earlier ones.
+ */
 export function ExerciseBanner({ exercise }: { exercise: string }) {
   return (
     <Banner look="is-news" words={words.hasSettings}>
@@ -36,7 +38,7 @@ export function ExerciseBanner({ exercise }: { exercise: string }) {
         type="button"
         class="button"
         disabled={!mayCommand.value}
-        onClick={() => void restore()}
+        onClick={() => void restoreLab()}
       >
         {words.restore}
       </button>
@@ -44,18 +46,18 @@ export function ExerciseBanner({ exercise }: { exercise: string }) {
   );
 }
 
-/** When the operator adds or removes a load; an emulator does it automatically. */
+/** Time at which the operator adds or removes a load; an emulator does it automatically. */
 function Hands({ of }: { of: Step }) {
   const now = bench.value;
   const state = session.value;
   if (now === null || of.bench === null || of.bench.manual_loads.length === 0) return null;
   if (now.emulated) return <p class="hint">{words.handsEmulated}</p>;
   const { manual_load: what, manual_loads: hands } = of.bench;
-  if (trial.value?.step !== of.name) {
+  if (activeRun.value?.step !== of.name) {
     return <p class="hint">{words.hands(what, hands)}</p>;
   }
   const timeS = state?.time_s ?? 0;
-  const due = handDue(of, timeS);
+  const due = dueManualLoad(of, timeS);
   if (due === null) return null;
   const isDue = timeS >= due.time_s;
   return (
@@ -65,19 +67,19 @@ function Hands({ of }: { of: Step }) {
   );
 }
 
-/** Until the run of a step is over, and judged. */
+/** Until the run of a step has ended and is assessed. */
 function Running({ of }: { of: Step }) {
-  const now = trial.value;
+  const now = activeRun.value;
   if (now === null || now.step !== of.name) return null;
   const state = session.value;
   return (
     <p class="note is-accent" role="status">
-      {now.isJudged ? words.judging : words.seconds(state?.time_s ?? 0, now.endS)}
+      {now.isAssessing ? words.judging : words.seconds(state?.time_s ?? 0, now.endS)}
     </p>
   );
 }
 
-export function Trial({ of, exercise, onDone }: Task) {
+export function Trial({ of, exercise, onDone }: TaskProps) {
   const state = session.value;
   useEffect(() => resume(of), [of, state?.recording?.run_id]);
   useEffect(() => {
@@ -86,31 +88,32 @@ export function Trial({ of, exercise, onDone }: Task) {
   const missing = exercise.parts.find(
     (one) => one.kind === "predict" && one.judged_by === of.name && one.answer === null,
   );
-  const isRunning = trial.value !== null;
+  const isRunning = activeRun.value !== null;
   useEffect(() => {
-    if (judged.value?.step === of.name) onDone();
-  }, [judged.value]);
+    if (lastAssessment.value?.step === of.name) onDone();
+  }, [lastAssessment.value]);
   const isOff =
     missing !== undefined ||
     isRunning ||
     isBusy.value ||
     !mayCommand.value ||
-    !isDoneHere(of, bench.value) ||
+    !isPossibleOn(of, bench.value) ||
+    !isOfSession(of, state) ||
     exercise.submitted_at !== null;
-  const { mayBeSet, mayRun } = readinessOf(bench.value, isHeld.value);
-  const asked = askedOf(of, bench.value);
+  const { canConfigure: mayBeSet, canRun: mayRun } = readinessOf(bench.value, isSwitchHeld.value);
+  const criteria = criteriaOf(of, bench.value);
   const isFree = of.free.length > 0;
   const predictions = exercise.parts.filter(
     (one) => one.kind === "predict" && one.judged_by === of.name,
   );
-  const runShown = judged.value?.step === of.name ? judged.value.run : of.run_id;
+  const runShown = lastAssessment.value?.step === of.name ? lastAssessment.value.run : of.run_id;
   return (
     <>
-      {asked.length > 0 && (
+      {criteria.length > 0 && (
         <>
           <h4>{words.asked}</h4>
           <ul class="bullets small">
-            {asked.map((one) => (
+            {criteria.map((one) => (
               <li key={one}>{one}</li>
             ))}
           </ul>

@@ -8,7 +8,6 @@ import {
   type ExerciseSummary,
   submit as giveIn,
   listCourse,
-  openOwnSession,
   putAnswer,
   putLaw,
   putPlace,
@@ -20,44 +19,51 @@ import {
 } from "../../core/api/course";
 import { RefusedError } from "../../core/api/errors";
 import { readRun } from "../../core/api/runs";
-import { reading } from "../../core/jobs/poll";
+import { createReader } from "../../core/jobs/poll";
 import { explain, perform, showErrorIn } from "../../core/state/actions";
 import { hasControl, mayCommand } from "../../core/state/control";
 import { acceptState, session } from "../../core/state/session";
-import { place, writePlace } from "../../runs/list/place";
-import { type Cut, findCut } from "./benchstep";
+import { place } from "../../runs/list/place";
+import { findInterruption, type RunInterruption } from "./benchstep";
 
 export const CONTROL_OF_LESSON = "lesson";
-const FILE_MS = 300;
-const FILE_PATIENCE = 60;
+const FILE_POLL_MS = 300;
+const MAX_FILE_POLLS = 60;
 
 export const exercises = signal<readonly ExerciseSummary[] | null>(null);
 export const exercise = signal<Exercise | null>(null);
-/** Why something of the course was not done; the next wish takes its place. */
+/** Reason why a request of the course was rejected; cleared by the next request. */
 export const problem = signal("");
 export const isBusy = signal(false);
 
-/** The run of a step that is under way, or being judged. */
-interface Trial {
+/** The run of a step that is in progress, or being assessed. */
+interface StepRun {
   exercise: string;
   step: string;
   run: string;
   endS: number;
-  isJudged: boolean;
+  isAssessing: boolean;
 }
-export const trial = signal<Trial | null>(null);
-/** What was judged last, with its run: worse than what is kept, it is shown and not kept. */
-export const judged = signal<{ step: string; run: string; results: CriterionResult[] } | null>(
-  null,
-);
+export const activeRun = signal<StepRun | null>(null);
+/**
+ * The latest assessment, with its run: if it is worse than the saved one, it is shown but not
+ * saved.
+ */
+export const lastAssessment = signal<{
+  step: string;
+  run: string;
+  results: CriterionResult[];
+} | null>(null);
 /** The run whose samples the plots show. */
 export const shownRun = signal<{ run: string; runNumber: number } | null>(null);
-/** A run that was not completed, and is not judged; the step can be started again. */
-export const cut = signal<{ step: string; why: Cut; timeS: number } | null>(null);
-/** A step recorded this run, and tells of it. */
-export const isOfLesson = (run: string): boolean => shownRun.value?.run === run;
+/** A run that was not completed, and is not assessed; the step can be started again. */
+export const interruption = signal<{ step: string; why: RunInterruption; timeS: number } | null>(
+  null,
+);
+/** Whether a step recorded this run, and reports it. */
+export const isRunOfLesson = (run: string): boolean => shownRun.value?.run === run;
 
-/** The step that the address names or numbers, or where one was last, or the first. */
+/** The step in the address, by name or number; otherwise the last visited one, or the first. */
 export const step = computed<Step | null>(() => {
   const at = place.value;
   const found = exercise.value;
@@ -67,23 +73,23 @@ export const step = computed<Step | null>(() => {
   return parts.find(({ name }) => name === wanted) ?? parts[Number(wanted) - 1] ?? parts[0] ?? null;
 });
 
-/** Whether the step leaves anything to be set by hand. */
+/** Whether the step has settings that the student chooses. */
 export const hasFreeSettings = computed(() => (step.value?.free.length ?? 0) > 0);
 
-/** What is shown next to a step: the newest assessment of its run, else the saved one. */
+/** The assessment next to a step: the newest of its run, otherwise the saved one. */
 export const resultsOf = (one: Step): readonly CriterionResult[] => {
-  const newest = judged.value;
+  const newest = lastAssessment.value;
   if (newest?.step === one.name && one.kind === "experiment") {
     return newest.results.filter(({ step: of }) => of === one.name);
   }
   return one.results;
 };
 
-async function attempt<T>(wish: () => Promise<T>): Promise<T | null> {
+async function attempt<T>(request: () => Promise<T>): Promise<T | null> {
   problem.value = "";
   isBusy.value = true;
   try {
-    return await wish();
+    return await request();
   } catch (error) {
     problem.value = explain(error);
     return null;
@@ -92,7 +98,7 @@ async function attempt<T>(wish: () => Promise<T>): Promise<T | null> {
   }
 }
 
-const read = reading(showErrorIn(problem));
+const read = createReader(showErrorIn(problem));
 
 export async function openCourse(): Promise<void> {
   problem.value = "";
@@ -101,8 +107,8 @@ export async function openCourse(): Promise<void> {
   });
 }
 
-/** Answers may overtake each other: the one that knows of more changes stays. */
-function show(found: Exercise | null): void {
+/** Answers may overtake each other: the one with more changes is kept. */
+function applyExercise(found: Exercise | null): void {
   const at = place.peek();
   if (found === null || (at.kind === "learn" && at.exercise !== found.name)) return;
   const shown = exercise.peek();
@@ -113,13 +119,15 @@ function show(found: Exercise | null): void {
 export async function openExercise(name: string): Promise<void> {
   if (exercise.peek()?.name !== name) exercise.value = null;
   problem.value = "";
-  await read(() => readExercise(name), show);
+  await read(() => readExercise(name), applyExercise);
 }
 
-/** The server knows where one is, for another browser; who only watches keeps no place. */
-export async function visit(name: string, at: string): Promise<void> {
+/**
+ * The server stores the present step, for another browser; a viewer without control stores none.
+ */
+export async function storePlace(name: string, at: string): Promise<void> {
   try {
-    show(await putPlace(name, at));
+    applyExercise(await putPlace(name, at));
   } catch (error) {
     if (!(error instanceof RefusedError)) problem.value = explain(error);
   }
@@ -127,119 +135,120 @@ export async function visit(name: string, at: string): Promise<void> {
 
 export async function answer(of: Step, given: number | string): Promise<void> {
   const name = exercise.peek()?.name ?? "";
-  show(await attempt(() => putAnswer(name, of.name, given)));
+  applyExercise(await attempt(() => putAnswer(name, of.name, given)));
 }
 
 const titleOfRun = (name: string, of: string) => `${name}/${of}`;
 
-/** Sets the session up; where nothing is to be chosen its run begins at once. */
+/** Set up the session; if nothing is to be chosen, its run starts at once. */
 export async function setUp(of: Step): Promise<void> {
   const name = exercise.peek()?.name ?? "";
   problem.value = "";
-  cut.value = null;
+  interruption.value = null;
   if (!(await perform(CONTROL_OF_LESSON, () => setUpStep(name, of.name)))) return;
-  show(await attempt(() => readExercise(name)));
+  applyExercise(await attempt(() => readExercise(name)));
   if (of.free.length === 0) await run(of);
 }
 
-/** From t = 0 with what is set, recorded to the end of the step's time. */
+/** Start at t = 0 with the present settings, recorded to the end of the step's time. */
 export async function run(of: Step): Promise<void> {
   const name = exercise.peek()?.name ?? "";
-  const doNow = (wish: Parameters<typeof perform>[1]) => perform(CONTROL_OF_LESSON, wish);
-  judged.value = cut.value = null;
-  if (!(await doNow(pause)) || !(await doNow(reset))) return;
-  if (!(await doNow(() => recordStep(titleOfRun(name, of.name))))) return;
-  take(name, of);
-  const isBegun = await doNow(start);
-  const now = trial.peek();
+  const performForLesson = (request: Parameters<typeof perform>[1]) =>
+    perform(CONTROL_OF_LESSON, request);
+  lastAssessment.value = interruption.value = null;
+  if (!(await performForLesson(pause)) || !(await performForLesson(reset))) return;
+  if (!(await performForLesson(() => recordStep(titleOfRun(name, of.name))))) return;
+  trackRun(name, of);
+  const isStarted = await performForLesson(start);
+  const now = activeRun.peek();
   if (now === null) return;
-  if (isBegun) shownRun.value = { run: now.run, runNumber: session.peek()?.run_number ?? 0 };
-  else await giveUp();
+  if (isStarted) shownRun.value = { run: now.run, runNumber: session.peek()?.run_number ?? 0 };
+  else await abandonRun();
 }
 
-/** A run that does not begin, or not continue, is no trial; its recording ends where one may end it. */
-async function giveUp(): Promise<void> {
-  trial.value = null;
+/** A run that does not start or continue does not count; its recording is stopped if permitted. */
+async function abandonRun(): Promise<void> {
+  activeRun.value = null;
   if (hasControl.peek()) await stopRecording().then(acceptState, () => undefined);
 }
 
-function take(name: string, of: Step): void {
+function trackRun(name: string, of: Step): void {
   const state = session.peek();
   const recording = state?.recording;
   if (state === null || recording?.state !== "recording") return;
-  trial.value = {
+  activeRun.value = {
     exercise: name,
     step: of.name,
     run: recording.run_id,
     endS: of.duration_s ?? 0,
-    isJudged: false,
+    isAssessing: false,
   };
   shownRun.value = { run: recording.run_id, runNumber: state.run_number };
 }
 
-/** After a reload: the run of this step that is being recorded is followed again. */
+/** After a reload: follow the recording run of this step again. */
 export function resume(of: Step): void {
   const name = exercise.peek()?.name ?? "";
   const isOfStep = session.peek()?.recording?.name === titleOfRun(name, of.name);
-  if (isOfStep && hasControl.peek() && trial.peek() === null && of.kind === "experiment")
-    take(name, of);
+  if (isOfStep && hasControl.peek() && activeRun.peek() === null && of.kind === "experiment")
+    trackRun(name, of);
 }
 
-/** Ends the recording when the time of the step is over, or the run, and has it judged. */
+/** Stop the recording when the time of the step or the run is over, and have it assessed. */
 export async function follow(): Promise<void> {
   const state = session.peek();
-  const now = trial.peek();
-  if (state === null || now === null || now.isJudged) return;
+  const now = activeRun.peek();
+  if (state === null || now === null || now.isAssessing) return;
   const isRecorded = state.recording?.run_id === now.run;
   if (isRecorded && state.status !== "fault" && state.time_s < now.endS) {
-    const why = findCut(state, hasControl.peek());
+    const why = findInterruption(state, hasControl.peek());
     if (why === null) return;
-    cut.value = { step: now.step, why, timeS: state.time_s };
-    await giveUp();
+    interruption.value = { step: now.step, why, timeS: state.time_s };
+    await abandonRun();
     return;
   }
-  trial.value = { ...now, isJudged: true };
+  activeRun.value = { ...now, isAssessing: true };
   if (isRecorded) {
     await perform(CONTROL_OF_LESSON, stopRecording);
     if (state.status === "running") await perform(CONTROL_OF_LESSON, pause);
   }
-  await attempt(() => judge(now));
-  trial.value = null;
+  await attempt(() => assess(now));
+  activeRun.value = null;
 }
 
-async function judge(now: Trial): Promise<void> {
-  for (let tries = 0; tries < FILE_PATIENCE; tries++) {
+async function assess(now: StepRun): Promise<void> {
+  for (let tries = 0; tries < MAX_FILE_POLLS; tries++) {
     if (await isFinished(now.run)) break;
-    await new Promise((resolve) => setTimeout(resolve, FILE_MS));
+    await new Promise((resolve) => setTimeout(resolve, FILE_POLL_MS));
   }
   const results = await checkRun(now.exercise, now.step, now.run);
-  judged.value = { step: now.step, run: now.run, results };
-  show(await readExercise(now.exercise));
+  lastAssessment.value = { step: now.step, run: now.run, results };
+  applyExercise(await readExercise(now.exercise));
 }
 
-/** An answer that does not come says nothing: asked again. */
+/** A lost answer has no information: request again. */
 const isFinished = (run: string): Promise<boolean> =>
   readRun(run).then(
     ({ state }) => state !== "recording",
     () => false,
   );
 
-/** Tried by the server, and kept there until it is submitted. */
+/** Tried by the server, and stored there until it is submitted. */
 export async function tryLaw(law: string): Promise<void> {
   const name = exercise.peek()?.name ?? "";
-  show(await attempt(() => putLaw(name, law)));
+  applyExercise(await attempt(() => putLaw(name, law)));
 }
 
 export async function submit(student: string): Promise<void> {
   const name = exercise.peek()?.name ?? "";
   const judgement = await attempt(() => giveIn(name, student));
   if (judgement === null) return;
-  show(await attempt(() => readExercise(name)));
+  applyExercise(await attempt(() => readExercise(name)));
 }
 
-export const restore = (): Promise<boolean> => perform("session", restoreSettings);
+export const restoreLab = (): Promise<boolean> => perform("session", restoreSettings);
 
-/** Where the lab is entered from another place, an exercise takes its settings back. */
+/** When the lab is opened from another page, an exercise restores its settings. */
 export function watchLeaving(): void {
   let before = place.peek().kind;
   effect(() => {
@@ -247,22 +256,13 @@ export function watchLeaving(): void {
     const isEntered = kind === "lab" && before !== "lab";
     before = kind;
     const state = session.peek();
-    const isOver = state !== null && state.exercise !== null && state.recording === null;
-    if (isEntered && isOver && mayCommand.peek()) void restore();
+    const isExerciseOver = state !== null && state.exercise !== null && state.recording === null;
+    if (isEntered && isExerciseOver && mayCommand.peek()) void restoreLab();
   });
 }
 
-/** Continues in a session that no other user commands; the page is reloaded with it. */
-export async function workApart(): Promise<void> {
-  const name = await attempt(openOwnSession);
-  if (name === null) return;
-  const query = new URLSearchParams(location.search);
-  query.set("session", name);
-  location.search = writePlace(place.peek(), `?${query}`);
-}
-
-/** What a step's task is given. onDone: called when the result is shown in place of the task. */
-export interface Task {
+/** Properties of a step's task. onDone: called when the result replaces the task. */
+export interface TaskProps {
   of: Step;
   exercise: Exercise;
   onDone: () => void;

@@ -1,13 +1,15 @@
-/** The errors of a figure's run, for its picture. Of every pair the first is FL, the second NDOBC. */
+/**
+ * The errors of a figure's run, for its picture. The first of every pair is FL, the second NDOBC.
+ */
 import type { Batch } from "../../core/stream/decoder";
 
-export interface Course {
+export interface ErrorHistory {
   timeS: number[];
   positionRad: [number[], number[]];
 }
 
 /** The columns time and position error of two lanes. */
-export function sliceCourse({ count, lanes, values }: Batch, channels: number): Course {
+export function errorHistoryOf({ count, lanes, values }: Batch, channels: number): ErrorHistory {
   const read = (channel: number, lane: number) =>
     Array.from(
       { length: count },

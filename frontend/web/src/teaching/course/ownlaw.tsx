@@ -1,4 +1,4 @@
-/** A law of one's own: a file or a text, tried at once, and kept until it is submitted. */
+/** The student's own law: a file or text, tried at once, and stored until it is submitted. */
 import { useMemo, useState } from "preact/hooks";
 import type { Exercise } from "../../core/api/course";
 import { text } from "../../core/text/en";
@@ -9,28 +9,28 @@ const words = text.lesson.law;
 
 const TONES: Readonly<Record<string, string>> = { held: "is-good", failed: "is-bad" };
 
-/** The first program in a step's text, which is one to begin with; "" where there is none. */
+/** The first program in a step's text, used as initial text; "" if there is none. */
 const findStart = (html: string): string =>
   new DOMParser().parseFromString(html, "text/html").querySelector("pre > code")?.textContent ?? "";
 
-function Trial({ kept }: { kept: NonNullable<Exercise["law"]> }) {
+function Trial({ savedLaw }: { savedLaw: NonNullable<Exercise["law"]> }) {
   return (
-    <div class={`note stack small ${TONES[kept.verdict] ?? "is-warn"}`}>
+    <div class={`note stack small ${TONES[savedLaw.verdict] ?? "is-warn"}`}>
       <p>
-        <strong>{words.verdicts[kept.verdict]}.</strong> {kept.feedback}
+        <strong>{words.verdicts[savedLaw.verdict]}.</strong> {savedLaw.feedback}
       </p>
-      {kept.output.trim() !== "" && (
+      {savedLaw.output.trim() !== "" && (
         <>
           <h4>{words.output}</h4>
-          <pre>{kept.output.trim()}</pre>
+          <pre>{savedLaw.output.trim()}</pre>
         </>
       )}
     </div>
   );
 }
 
-export function OwnLaw({ kept, html }: { kept: Exercise["law"]; html: string }) {
-  const [law, setLaw] = useState(kept?.text ?? "");
+export function OwnLaw({ savedLaw, html }: { savedLaw: Exercise["law"]; html: string }) {
+  const [law, setLaw] = useState(savedLaw?.text ?? "");
   const [isTrying, setTrying] = useState(false);
   const start = useMemo(() => findStart(html), [html]);
   return (
@@ -55,8 +55,8 @@ export function OwnLaw({ kept, html }: { kept: Exercise["law"]; html: string }) 
       </button>
       <div class="block stack" role="status">
         {isTrying && <p class="note is-accent">{words.trying}</p>}
-        {!isTrying && kept && <Trial kept={kept} />}
-        {!isTrying && kept && kept.text !== law && <p class="hint">{words.changed}</p>}
+        {!isTrying && savedLaw && <Trial savedLaw={savedLaw} />}
+        {!isTrying && savedLaw && savedLaw.text !== law && <p class="hint">{words.changed}</p>}
       </div>
     </form>
   );

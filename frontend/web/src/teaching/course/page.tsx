@@ -3,7 +3,7 @@ import type { ExerciseSummary } from "../../core/api/course";
 import { EquationCard } from "../../core/equations/equation";
 import { TOPICS, type Topic } from "../../core/equations/equations";
 import { text } from "../../core/text/en";
-import { Page } from "../../core/widgets/desk";
+import { Page } from "../../core/widgets/pagelayout";
 import { goTo, PlaceLink } from "../../runs/list/place";
 import { Claims } from "./claims";
 import { exercises, openCourse, problem } from "./lesson";

@@ -1,14 +1,14 @@
-/** A number is predicted before the run that it is compared with. */
+/** Prediction of a number before the run that it is compared with. */
 import { useState } from "preact/hooks";
 import { text } from "../../core/text/en";
-import { answer, type Task } from "./lesson";
+import { answer, type TaskProps } from "./lesson";
 import { Results } from "./results";
 
 const words = text.lesson;
 
 const formatBound = (value: number) => String(Number(value.toPrecision(6)));
 
-export function Prediction({ of, exercise, onDone }: Task) {
+export function Prediction({ of, exercise, onDone }: TaskProps) {
   const [isChanging, setChanging] = useState(false);
   const [draft, setDraft] = useState("");
   const [isSent, setSent] = useState(false);

@@ -1,12 +1,12 @@
-/** One of several answers is chosen, once. */
+/** A question with one answer, which can be given once. */
 import { useState } from "preact/hooks";
 import { text } from "../../core/text/en";
-import { answer, type Task } from "./lesson";
+import { answer, type TaskProps } from "./lesson";
 import { Results } from "./results";
 
 const words = text.lesson;
 
-export function Question({ of, onDone }: Omit<Task, "exercise">) {
+export function Question({ of, onDone }: Omit<TaskProps, "exercise">) {
   const [chosen, setChosen] = useState("");
   const [isSent, setSent] = useState(false);
   const given = of.answer;

@@ -6,25 +6,25 @@ import { goTo } from "../../runs/list/place";
 import { shownRun } from "./lesson";
 
 const words = text.lesson;
-const MERGED_S = 0.5;
+const MIN_GAP_S = 0.5;
 
 const wordOf = ({ points, max_points: most }: CriterionResult) =>
   points >= most ? "right" : points > 0 ? "partly" : "wrong";
 
 const TONES = { right: "is-good", partly: "is-warn", wrong: "is-bad" } as const;
 
-/** The moment in the plots, where they still hold that run; else in its replay. */
-function lookThere(run: string, timeS: number): void {
+/** A link to the moment in the plots if they still have that run; otherwise in its replay. */
+function showInPlots(run: string, timeS: number): void {
   const { ring } = samples;
   const shown = shownRun.peek();
   const isShown = shown?.run === run && shown.runNumber === session.peek()?.run_number;
   if (isShown && ring.oldestTime <= timeS && timeS <= ring.newestTime) {
-    showSpan({ from: timeS - MERGED_S, to: timeS + MERGED_S });
+    showSpan({ from: timeS - MIN_GAP_S, to: timeS + MIN_GAP_S });
     document.getElementById("plots")?.scrollIntoView({ block: "nearest" });
   } else goTo({ kind: "run", run, timeS });
 }
 
-/** The result of a step: points, feedback, and where to look. */
+/** The result of a step: points, feedback, and links to the relevant moments. */
 export function Results({
   of,
   results,
@@ -53,7 +53,7 @@ export function Results({
                 type="button"
                 class="button"
                 title={words.showHint}
-                onClick={() => lookThere(run, one.time_s as number)}
+                onClick={() => showInPlots(run, one.time_s as number)}
               >
                 {words.show(one.time_s.toFixed(2))}
               </button>

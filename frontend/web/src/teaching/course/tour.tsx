@@ -2,7 +2,7 @@ import { signal } from "@preact/signals";
 import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import type { SessionState } from "../../core/api/types";
 import { mayCommand } from "../../core/state/control";
-import { remember, remembered } from "../../core/state/preferences";
+import { readStored, store } from "../../core/state/preferences";
 import { session } from "../../core/state/session";
 import { text } from "../../core/text/en";
 import { closeOnEscape } from "../../core/widgets/panel";
@@ -13,7 +13,7 @@ const STORE = "svsa.tour";
 const GAP_PX = 12;
 const words = text.tour;
 
-/** Each step and the part of the page that it speaks of; the first has none. */
+/** Each step and the part of the page that it describes; the first has none. */
 const STEPS = [
   { key: "welcome", target: ".view" },
   { key: "view", target: ".view" },
@@ -24,21 +24,21 @@ const STEPS = [
 ] as const;
 
 /** The step shown; null without a tour. */
-const step = signal<number | null>(remembered(STORE) === "done" ? null : 0);
+const step = signal<number | null>(readStored(STORE) === "done" ? null : 0);
 
 export function startTour(): void {
   step.value = 0;
   go(1);
 }
 
-/** What the tour began with: it leaves the session so. */
+/** State before the tour, which is restored at its end. */
 let before: SessionState | null = null;
 
 function endTour(): void {
   step.value = null;
   if (before !== null && mayCommand.peek()) void restoreTo(before);
   before = null;
-  remember(STORE, "done");
+  store(STORE, "done");
   // The next Tab goes to the load button, not to the top of the page.
   document.querySelector<HTMLElement>(".load-place")?.focus({ preventScroll: true });
 }
@@ -75,8 +75,8 @@ function place(card: HTMLElement, target: Box, isFirst: boolean): void {
   card.style.top = `${clamp(y, mostY)}px`;
 }
 
-/** Where the target is, also after a change of the window. */
-function useTarget(selector: string, isShown: boolean): Box | null {
+/** Position of the target, updated when the window changes. */
+function useTargetBox(selector: string, isShown: boolean): Box | null {
   const [box, setBox] = useState<Box | null>(null);
   useLayoutEffect(() => {
     const target = document.querySelector(selector);
@@ -104,7 +104,7 @@ function Card({ index }: { index: number }) {
   const isLast = index === STEPS.length - 1;
   const card = useRef<HTMLElement>(null);
   const onward = useRef<HTMLButtonElement>(null);
-  const box = useTarget(target, !isFirst);
+  const box = useTargetBox(target, !isFirst);
   useLayoutEffect(() => {
     if (card.current && box) place(card.current, box, isFirst);
   }, [box, isFirst]);
@@ -151,7 +151,7 @@ function Card({ index }: { index: number }) {
   );
 }
 
-/** The tour: offered on the first visit, then only where it is asked for. */
+/** The tour: offered on the first visit, later only on request. */
 export function Tour() {
   return step.value === null ? null : <Card index={step.value} />;
 }

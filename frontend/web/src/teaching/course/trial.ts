@@ -2,26 +2,26 @@
 import { API, request } from "../../core/api/request";
 import type { Claim, Figure, Hello, SessionState } from "../../core/api/types";
 import { BatchDecoder } from "../../core/stream/decoder";
-import { type Course, sliceCourse } from "./outcome";
+import { type ErrorHistory, errorHistoryOf } from "./outcome";
 
 const DURATION_S = 20;
 const MAX_STEP = 10_000;
 const RATE_HZ = 1000;
-const PATIENCE_MS = 20_000;
+const TIMEOUT_MS = 20_000;
 const CHANNELS = ["time_s", "position_error_rad"] as const;
 
-const ask = (method: "post" | "get" | "delete" | "put", path: string, body?: unknown) =>
-  request(method, path, body, PATIENCE_MS) as Promise<SessionState>;
+const privateRequest = (method: "post" | "get" | "delete" | "put", path: string, body?: unknown) =>
+  request(method, path, body, TIMEOUT_MS) as Promise<SessionState>;
 
-export interface Tried {
-  course: Course;
+export interface FigureResult {
+  course: ErrorHistory;
   /** The run compared with the paper's claim, by the server. */
   claim: Claim;
 }
 
-/** The whole run as FL and NDOBC went through it. */
-export async function runFigureApart(figure: Figure): Promise<Tried> {
-  const { session } = await ask("post", "sessions", {
+/** The whole run with FL and NDOBC. */
+export async function runFigureInPrivate(figure: Figure): Promise<FigureResult> {
+  const { session } = await privateRequest("post", "sessions", {
     figure,
     law: "fl",
     comparisons: [{ law: "ndobc" }],
@@ -29,11 +29,11 @@ export async function runFigureApart(figure: Figure): Promise<Tried> {
   });
   const path = `sessions/${session}`;
   try {
-    let state = await ask("post", `${path}/pause`);
+    let state = await privateRequest("post", `${path}/pause`);
     const last = Math.round(DURATION_S * state.rate_hz);
     while (state.tick < last && state.status !== "fault") {
       const ticks = Math.min(MAX_STEP, last - state.tick);
-      state = await ask("post", `${path}/step`, { ticks });
+      state = await privateRequest("post", `${path}/step`, { ticks });
     }
     const claim = (await request("get", `${path}/claim?figure=${figure}`)) as Claim;
     return { course: await readHistory(path, state.tick), claim };
@@ -42,8 +42,8 @@ export async function runFigureApart(figure: Figure): Promise<Tried> {
   }
 }
 
-/** Takes the run's past out of the stream, then closes it. */
-function readHistory(path: string, lastTick: number): Promise<Course> {
+/** Read the run's past from the stream, then close it. */
+function readHistory(path: string, lastTick: number): Promise<ErrorHistory> {
   const address = new URL(`${path}/stream`, API);
   address.protocol = address.protocol.replace("http", "ws");
   address.search = String(
@@ -57,9 +57,9 @@ function readHistory(path: string, lastTick: number): Promise<Course> {
   return new Promise((resolve, reject) => {
     const socket = new WebSocket(address);
     socket.binaryType = "arraybuffer";
-    const parts: Course[] = [];
+    const parts: ErrorHistory[] = [];
     let decoder: BatchDecoder | null = null;
-    const give = setTimeout(() => socket.close(), PATIENCE_MS);
+    const giveUpTimer = setTimeout(() => socket.close(), TIMEOUT_MS);
     socket.onmessage = ({ data }: MessageEvent<string | ArrayBuffer>) => {
       if (typeof data === "string") {
         const content = JSON.parse(data) as Hello | { type: "state" | "error" };
@@ -68,19 +68,19 @@ function readHistory(path: string, lastTick: number): Promise<Course> {
       }
       const batch = decoder?.decode(data);
       if (batch === undefined) return;
-      parts.push(sliceCourse(batch, CHANNELS.length));
+      parts.push(errorHistoryOf(batch, CHANNELS.length));
       if (batch.firstTick + batch.count * batch.stride >= lastTick) socket.close();
     };
     socket.onclose = () => {
-      clearTimeout(give);
-      const whole = join(parts);
-      if (whole.timeS.length > 0) resolve(whole);
+      clearTimeout(giveUpTimer);
+      const history = concatenate(parts);
+      if (history.timeS.length > 0) resolve(history);
       else reject(new Error("no samples"));
     };
   });
 }
 
-function join(parts: readonly Course[]): Course {
+function concatenate(parts: readonly ErrorHistory[]): ErrorHistory {
   return {
     timeS: parts.flatMap((part) => part.timeS),
     positionRad: [

@@ -4,11 +4,11 @@ import { Prose } from "../../core/equations/formula";
 import { text } from "../../core/text/en";
 import { ErrorLine } from "../../core/widgets/form";
 import { PlaceLink, place } from "../../runs/list/place";
-import { Ending } from "./ending";
 import { Trial } from "./experiment";
-import { exercise, openExercise, problem, step, visit } from "./lesson";
+import { exercise, openExercise, problem, step, storePlace } from "./lesson";
 import { Prediction } from "./prediction";
 import { Question } from "./question";
+import { SubmissionPanel } from "./submission";
 
 const words = text.lesson;
 
@@ -48,7 +48,7 @@ function Task({ found, at }: { found: Exercise; at: Step }) {
       {at.kind === "predict" && <Prediction {...given} />}
       {at.kind === "experiment" && <Trial {...given} />}
       {at.kind === "explain" && <Question {...given} />}
-      {at.kind === "submit" && <Ending {...given} />}
+      {at.kind === "submit" && <SubmissionPanel {...given} />}
     </div>
   );
 }
@@ -86,7 +86,7 @@ export function Lesson({ name }: { name: string }) {
   const here = found?.name === name && at !== null ? at.name : "";
   useEffect(() => {
     if (here === "") return;
-    void visit(name, here);
+    void storePlace(name, here);
     if (place.peek() !== asLoaded) heading.current?.focus();
   }, [name, here]);
   return (

@@ -6,29 +6,29 @@ import {
   type Student,
   type Submission,
 } from "../../core/api/course";
-import { isGoing, JobProgress } from "../../core/jobs/progress";
+import { isJobRunning, JobProgress } from "../../core/jobs/progress";
 import { text } from "../../core/text/en";
 import { Criteria, formatPoints, VerifiedRuns } from "../../core/widgets/criteria";
-import { Page } from "../../core/widgets/desk";
+import { Page } from "../../core/widgets/pagelayout";
 import {
   cancel,
   columns,
   gradeAll,
   grades,
   job,
-  leave,
   openGrades,
-  picked,
   problem,
-  shown,
+  selectedSubmission,
+  selection,
   submissionOf,
   sumOf,
+  unfollow,
   ungraded,
 } from "./grades";
 
 const words = text.grades;
 
-/** What of a submission stands in the table. */
+/** Cell of a submission in the table. */
 function describeSubmission({ grade, problem: why }: Submission): string {
   if (grade !== null) return words.of(formatPoints(grade.points), formatPoints(grade.max_points));
   return why === "" ? words.ungraded : words.refused;
@@ -37,7 +37,7 @@ function describeSubmission({ grade, problem: why }: Submission): string {
 function Cell({ student, exercise }: { student: Student; exercise: string }) {
   const submission = submissionOf(student, exercise);
   if (submission === undefined) return <td class="muted">{words.nothing}</td>;
-  const at = picked.value;
+  const at = selection.value;
   const isShown = at?.person === student.person && at.exercise === exercise;
   return (
     <td>
@@ -46,7 +46,7 @@ function Cell({ student, exercise }: { student: Student; exercise: string }) {
         class={submission.problem === "" ? "nowrap" : "nowrap bad"}
         aria-pressed={isShown}
         onClick={() => {
-          picked.value = isShown ? null : { person: student.person, exercise };
+          selection.value = isShown ? null : { person: student.person, exercise };
         }}
       >
         {describeSubmission(submission)}
@@ -55,7 +55,7 @@ function Cell({ student, exercise }: { student: Student; exercise: string }) {
   );
 }
 
-/** Students down, exercises across; a press on a number shows it by criterion. */
+/** One row per student, one column per exercise; a click on a number shows it by criterion. */
 function Table() {
   return (
     <section class="surface card scroll" aria-label={words.table}>
@@ -91,7 +91,9 @@ function Table() {
                   <Cell key={name} student={student} exercise={name} />
                 ))}
                 <td>
-                  {sum === null ? "–" : words.of(formatPoints(sum.points), formatPoints(sum.most))}
+                  {sum === null
+                    ? "–"
+                    : words.of(formatPoints(sum.points), formatPoints(sum.maximum))}
                 </td>
               </tr>
             );
@@ -102,9 +104,9 @@ function Table() {
   );
 }
 
-/** One grade by criterion, or why there is none. */
-function Picked() {
-  const now = shown.value;
+/** One grade by criterion, or the reason why there is none. */
+function SelectedGrade() {
+  const now = selectedSubmission.value;
   if (now === null) return <p class="hint">{words.pick}</p>;
   const { student, submission } = now;
   const { grade } = submission;
@@ -136,7 +138,7 @@ function Picked() {
 
 function Acts() {
   const now = job.value;
-  const isBusy = isGoing(now);
+  const isBusy = isJobRunning(now);
   return (
     <div class="row">
       <button
@@ -176,11 +178,11 @@ function Acts() {
   );
 }
 
-/** A class's grades: given by running again what was submitted, and shown by criterion. */
+/** A class's grades: graded by running the submissions again, and shown by criterion. */
 export function GradesPage() {
   useEffect(() => {
     void openGrades();
-    return leave;
+    return unfollow;
   }, []);
   const found = grades.value;
   return (
@@ -201,7 +203,7 @@ export function GradesPage() {
         <>
           <Acts />
           <Table />
-          <Picked />
+          <SelectedGrade />
         </>
       )}
     </Page>

@@ -1,4 +1,4 @@
-/** The columns of the leaderboard: what each is of, and the order that it makes. */
+/** The columns of the leaderboard: content and sort key. */
 import type { BoardEntry } from "../../core/api/ranking";
 import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
@@ -11,14 +11,14 @@ export interface Column extends SortColumn {
   read: (entry: BoardEntry) => number | string | null;
 }
 
-/** A law of the lab by its title, a submitted one as it was called. */
+/** A law of the lab by its title, a submitted one by its name. */
 export const nameOf = (entry: BoardEntry): string =>
   entry.is_installed ? titleOf(entry.key) : entry.name;
 
 export const COLUMNS: readonly Column[] = [
   { key: "rank", class: "number", read: ({ rank }) => rank },
   { key: "law", class: "is-name", read: (entry) => nameOf(entry).toLocaleLowerCase() },
-  { key: "success", isDownFirst: true, read: ({ standing }) => standing.success },
+  { key: "success", class: "number", isDownFirst: true, read: ({ standing }) => standing.success },
   { key: "ended", class: "number", read: ({ standing }) => standing.trials_ended },
   { key: "rms", class: "number", read: ({ standing }) => standing.median_rms_deg },
   { key: "cost", class: "number", read: ({ standing }) => standing.tick_us },
@@ -26,7 +26,7 @@ export const COLUMNS: readonly Column[] = [
   { key: "entered", isDownFirst: true, read: (entry) => entry.entered },
 ];
 
-/** In the order asked for; equal ones by rank, as the server lists them. */
+/** Sorted entries; equal ones by rank, as the server lists them. */
 export function sortEntries(entries: readonly BoardEntry[], key: string, isDown: boolean) {
   const column = COLUMNS.find((one) => one.key === key) ?? (COLUMNS[0] as Column);
   return sortBy(entries, column.read, isDown);

@@ -1,17 +1,43 @@
 import { useEffect } from "preact/hooks";
 import { text } from "../../core/text/en";
-import { Desk } from "../../core/widgets/desk";
 import { ErrorLine } from "../../core/widgets/form";
+import { Example, PageWithForm } from "../../core/widgets/pagelayout";
+import { COLUMNS } from "../../evaluation/ranking/columns";
+import { LawCard } from "../../evaluation/ranking/law";
+import { openRanking, problem as rankingProblem, results } from "../../evaluation/ranking/ranking";
+import { RankingTable } from "../../evaluation/ranking/table";
 import { place } from "../../runs/list/place";
 import { formatMoment } from "../../runs/list/words";
-import { board, leave, openBoard, problem } from "./leaderboard";
+import { board, openBoard, problem, unfollow } from "./leaderboard";
 import { Start } from "./start";
 import { BoardTable } from "./table";
-import { Worst } from "./worst";
+import { WorstRun } from "./worst";
 
 const words = text.leaderboard;
 
-/** How a first law gets onto an empty board. */
+const PUBLISHED = new Set(["rank", "familyA", "familyB", "load"]);
+
+/** The ranking that comes with the lab; it has no season. */
+function Published() {
+  useEffect(() => void openRanking(), []);
+  return (
+    <section class="stack" aria-labelledby="board-published">
+      <h3 id="board-published">
+        <Example /> {words.published}
+      </h3>
+      <p class="hint">{words.publishedHint}</p>
+      <ErrorLine>{rankingProblem.value}</ErrorLine>
+      {results.value !== null && (
+        <>
+          <RankingTable columns={COLUMNS.filter(({ key }) => PUBLISHED.has(key))} />
+          <LawCard />
+        </>
+      )}
+    </section>
+  );
+}
+
+/** Instructions for a leaderboard without entries. */
 const Empty = () => (
   <section class="surface card" aria-labelledby="board-empty">
     <h3 id="board-empty">{words.empty}</h3>
@@ -19,25 +45,25 @@ const Empty = () => (
   </section>
 );
 
-/** Laws that were submitted among those of the lab, and the worst run of each. */
+/** Submitted laws among those of the lab, and the worst run of each. */
 export function LeaderboardPage() {
   const at = place.value;
   useEffect(() => {
     void openBoard();
-    return leave;
+    return unfollow;
   }, []);
   if (at.kind === "leaderboard" && at.entry !== "") {
     return (
       <main class="page is-run" aria-label={words.title}>
         <ErrorLine>{problem.value}</ErrorLine>
-        <Worst />
+        <WorstRun />
       </main>
     );
   }
   const found = board.value;
   const hasOwn = found?.entries.some((one) => !one.is_installed) ?? false;
   return (
-    <Desk
+    <PageWithForm
       title={words.title}
       lead={
         found?.began == null
@@ -52,9 +78,9 @@ export function LeaderboardPage() {
       ) : (
         <div class="stack">
           {!hasOwn && <Empty />}
-          <BoardTable />
+          {found.began === null ? <Published /> : <BoardTable />}
         </div>
       )}
-    </Desk>
+    </PageWithForm>
   );
 }

@@ -1,7 +1,7 @@
 import { useEffect, useRef, useState } from "preact/hooks";
-import { isGoing, JobProgress } from "../../core/jobs/progress";
+import { isJobRunning, JobProgress } from "../../core/jobs/progress";
 import { isClass, isObserver } from "../../core/state/control";
-import { personName, rememberPerson } from "../../core/state/preferences";
+import { personName, setPersonName } from "../../core/state/preferences";
 import { text } from "../../core/text/en";
 import { findFault, LawText } from "../../core/widgets/lawtext";
 import EXAMPLE from "./example.py?raw";
@@ -9,11 +9,11 @@ import {
   board,
   cancel,
   entries,
-  isAsking,
-  isEntered,
+  existingEntryKey,
+  hasSubmittedEntry,
+  isSubmitting,
   job,
-  measureLab,
-  note,
+  measureInstalledLaws,
   submit,
 } from "./leaderboard";
 
@@ -21,21 +21,23 @@ const words = text.leaderboard;
 const LONGEST_NAME = 60;
 const ENDING = /\.py$/i;
 
-/** How far the law is, or outcome of it. */
+/** Progress of the measurement, or its outcome. */
 function Progress() {
   const now = job.value;
   const box = useRef<HTMLDivElement>(null);
   useEffect(() => {
     box.current?.scrollIntoView({ block: "nearest" });
-  }, [now?.id, isGoing(now)]);
+  }, [now?.id, isJobRunning(now)]);
   if (now === null) return null;
   const failed = now.status === "failed";
   return (
     <div ref={box} class="surface card">
       <h3>
-        {isGoing(now) && !isEntered.value ? words.measuring(now.title) : words.measured(now.title)}
+        {isJobRunning(now) && !hasSubmittedEntry.value
+          ? words.measuring(now.title)
+          : words.measured(now.title)}
       </h3>
-      {isEntered.value && <p class="hint">{words.labFollows}</p>}
+      {hasSubmittedEntry.value && <p class="hint">{words.labFollows}</p>}
       {failed ? (
         <p class="problem as-written" role="alert">
           <strong>{words.failed}</strong> {now.problem} {words.failedHint}
@@ -53,7 +55,7 @@ function Progress() {
   );
 }
 
-/** The text of a law, pasted or of a file, what it is called and who submits it. */
+/** The text of a law, pasted or from a file, its name and its author. */
 function Form() {
   const [name, setName] = useState("");
   const [author, setAuthor] = useState(personName.peek());
@@ -66,7 +68,7 @@ function Form() {
       class="surface card stack form"
       onSubmit={(event) => {
         event.preventDefault();
-        if (!isClass.peek()) rememberPerson(author.trim());
+        if (!isClass.peek()) setPersonName(author.trim());
         void submit({ name, author, law });
       }}
     >
@@ -101,21 +103,24 @@ function Form() {
           type="submit"
           class="button is-primary"
           disabled={
-            law.trim() === "" || findFault(law) !== "" || isAsking.value || isGoing(job.value)
+            law.trim() === "" ||
+            findFault(law) !== "" ||
+            isSubmitting.value ||
+            isJobRunning(job.value)
           }
         >
           {words.send}
         </button>
       </div>
-      <p role="status" hidden={note.value === ""}>
-        {note.value !== "" &&
-          words.known(entries.value.find((one) => one.key === note.value)?.name)}
+      <p role="status" hidden={existingEntryKey.value === ""}>
+        {existingEntryKey.value !== "" &&
+          words.known(entries.value.find((one) => one.key === existingEntryKey.value)?.name)}
       </p>
     </form>
   );
 }
 
-/** How a law gets onto the board, what stands in the way here, and how far the present one is. */
+/** How to submit a law, obstacles on this machine, and progress of the present one. */
 export function Start() {
   const now = board.value;
   if (now === null) return null;
@@ -141,8 +146,8 @@ export function Start() {
           <button
             type="button"
             class="button"
-            disabled={isGoing(job.value)}
-            onClick={() => void measureLab()}
+            disabled={isJobRunning(job.value)}
+            onClick={() => void measureInstalledLaws()}
           >
             {words.measureLab}
           </button>

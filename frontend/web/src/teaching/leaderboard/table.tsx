@@ -6,11 +6,11 @@ import { SortHeads } from "../../core/widgets/tables";
 import { PlaceLink } from "../../runs/list/place";
 import { formatMoment, formatMomentShort } from "../../runs/list/words";
 import { COLUMNS, nameOf } from "./columns";
-import { board, entries, sort, submitted } from "./leaderboard";
+import { board, entries, sort, submittedKey } from "./leaderboard";
 
 const words = text.leaderboard;
 
-/** The success rate with the ends of its interval. */
+/** The success rate with the bounds of its interval. */
 function Success({ standing }: BoardEntry) {
   const { success, low, high, trials, trials_held } = standing;
   return (
@@ -30,7 +30,7 @@ function Row({ entry }: { entry: BoardEntry }) {
   const error = worst.rms_deg === null ? words.ended : words.degrees(formatNumber(worst.rms_deg));
   const look = [
     entry.is_installed ? "is-baseline" : "",
-    entry.key === submitted.value ? "is-mine" : "",
+    entry.key === submittedKey.value ? "is-mine" : "",
   ];
   return (
     <tr class={look.join(" ")}>
@@ -70,7 +70,7 @@ function Row({ entry }: { entry: BoardEntry }) {
   );
 }
 
-/** An installed law that is not measured in this season yet. */
+/** An installed law that is not yet measured in this season. */
 const Missing = ({ law }: { law: string }) => (
   <tr class="is-baseline muted">
     <td class="number">–</td>
@@ -82,7 +82,7 @@ const Missing = ({ law }: { law: string }) => (
   </tr>
 );
 
-/** An entry a row: the submitted laws among those of the lab. */
+/** One row per entry: the submitted laws among those of the lab. */
 export function BoardTable() {
   return (
     <section class="surface card" aria-labelledby="board-entries">

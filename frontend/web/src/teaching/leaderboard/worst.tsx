@@ -4,15 +4,15 @@ import { formatNumber } from "../../core/units";
 import { PlaceLink } from "../../runs/list/place";
 import { ReplayFrame } from "../../runs/list/replayframe";
 import { nameOf } from "./columns";
-import { board, looked } from "./leaderboard";
+import { board, shownEntry } from "./leaderboard";
 
 const words = text.leaderboard;
 const PAPERS_LAW = "ndobc";
-const stay = () => {};
+const ignoreMoment = () => {};
 
 /** An entry's worst run in 3D, compared with NDOBC. */
-export function Worst() {
-  const entry = looked.value;
+export function WorstRun() {
+  const entry = shownEntry.value;
   const back = (
     <PlaceLink to={{ kind: "leaderboard", entry: "" }} class="button">
       ← {words.back}
@@ -50,7 +50,7 @@ export function Worst() {
         source={worstRunAddress(entry.key)}
         name={name}
         startS={0}
-        onMoment={stay}
+        onMoment={ignoreMoment}
       />
     </>
   );

@@ -48,8 +48,8 @@ afterEach(() => vi.unstubAllGlobals());
 describe("the audit log", () => {
   it("turns to older pages of what the first one was read of", async () => {
     const log = await load();
-    await log.askFor();
-    await log.turnTo(2);
+    await log.queryAudit();
+    await log.goToPage(2);
     expect(asked.map((query) => [query.get("page"), query.get("until")])).toEqual([
       ["1", ""],
       ["2", "T"],
@@ -60,10 +60,10 @@ describe("the audit log", () => {
 
   it("begins at the newest again with another filter, and keeps the others", async () => {
     const log = await load();
-    await log.askFor({ person: "p-1" });
-    await log.turnTo(2);
-    await log.askFor({ kind: "settings" });
-    await log.askFor({ onlyRefused: true });
+    await log.queryAudit({ person: "p-1" });
+    await log.goToPage(2);
+    await log.queryAudit({ kind: "settings" });
+    await log.queryAudit({ onlyRefused: true });
     const last = asked.at(-1) as URLSearchParams;
     expect(Object.fromEntries(last)).toEqual({
       person: "p-1",
@@ -84,8 +84,8 @@ describe("the audit log", () => {
         }),
       () => answer(page(7)),
     ];
-    const first = log.askFor();
-    await log.askFor({ kind: "settings" });
+    const first = log.queryAudit();
+    await log.queryAudit({ kind: "settings" });
     late(await answer(page(99)));
     await first;
     expect(log.auditPage.value?.total).toBe(7);
@@ -94,9 +94,9 @@ describe("the audit log", () => {
 
   it("says why it cannot be read, and keeps what it had", async () => {
     const log = await load();
-    await log.askFor();
+    await log.queryAudit();
     answers = [() => answer({ detail: "Too much is being made.", violations: [] }, 503)];
-    await log.askFor();
+    await log.queryAudit();
     expect(log.problem.value).toBe("Too much is being made.");
     expect(log.auditPage.value?.total).toBe(120);
   });
@@ -113,7 +113,7 @@ describe("a line of it", () => {
   });
 
   it("shows the result, and the reason of failures and automatic actions", async () => {
-    const { nameKind, describeEnd } = await load();
+    const { nameKind, describeResult: describeEnd } = await load();
     expect(describeEnd(line)).toBe("done");
     expect(describeEnd({ ...line, refused: true, status: 409 })).toBe("rejected (409)");
     expect(describeEnd({ ...line, status: null, why: "idle" })).toBe("idle");

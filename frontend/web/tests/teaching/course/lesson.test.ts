@@ -46,7 +46,7 @@ const state = (change: object = {}) =>
     bench: null,
     ...change,
   }) as SessionState;
-/** What a call answers; what the session is now comes from elsewhere, and is newer. */
+/** Answer of a call; the present state of the session comes from another source and is newer. */
 const OLDER = state({ tick: -1 });
 const recording = { state: "recording", run_id: "run-1", name: "mechanism/lever" };
 
@@ -90,8 +90,8 @@ beforeEach(() => {
   place.value = { kind: "learn", exercise: "mechanism", step: "" };
   session.value = state();
   lesson.exercise.value = course();
-  lesson.trial.value = null;
-  lesson.judged.value = null;
+  lesson.activeRun.value = null;
+  lesson.lastAssessment.value = null;
   lesson.shownRun.value = null;
   lesson.problem.value = "";
 });
@@ -141,24 +141,24 @@ describe("a step's run", () => {
     const other = { holder: "Bob", mine: false, watching: 1 };
     session.value = state({ recording, time_s: 4.2, control: other });
     await lesson.follow();
-    expect(lesson.cut.value).toEqual({ step: "lever", why: "control", timeS: 4.2 });
-    expect(lesson.trial.value).toBeNull();
+    expect(lesson.interruption.value).toEqual({ step: "lever", why: "control", timeS: 4.2 });
+    expect(lesson.activeRun.value).toBeNull();
     expect(calls.stopRecording).not.toHaveBeenCalled();
     expect(calls.checkRun).not.toHaveBeenCalled();
     lesson.resume(step("lever"));
-    expect(lesson.trial.value, "another's run of the same step").toBeNull();
+    expect(lesson.activeRun.value, "another's run of the same step").toBeNull();
     session.value = state();
     record();
     await lesson.run(step("lever"));
-    expect(lesson.cut.value).toBeNull();
-    expect(lesson.trial.value?.step).toBe("lever");
+    expect(lesson.interruption.value).toBeNull();
+    expect(lesson.activeRun.value?.step).toBe("lever");
   });
 
   it("that is refused when it is begun is no trial, and its recording ends", async () => {
     record();
     calls.start.mockRejectedValue(new RefusedError(409, "The bench is off."));
     await lesson.run(step("lever"));
-    expect(lesson.trial.value).toBeNull();
+    expect(lesson.activeRun.value).toBeNull();
     expect(calls.stopRecording).toHaveBeenCalledOnce();
   });
 
@@ -168,9 +168,9 @@ describe("a step's run", () => {
     expect(calls.setUpStep).toHaveBeenCalledWith("mechanism", "lever");
     expect(calls.recordStep).toHaveBeenCalledWith("mechanism/lever");
     expect(calls.start).toHaveBeenCalledOnce();
-    expect(lesson.trial.value).toMatchObject({ step: "lever", run: "run-1", endS: 6 });
-    expect(lesson.isOfLesson("run-1")).toBe(true);
-    expect(lesson.isOfLesson("run-2")).toBe(false);
+    expect(lesson.activeRun.value).toMatchObject({ step: "lever", run: "run-1", endS: 6 });
+    expect(lesson.isRunOfLesson("run-1")).toBe(true);
+    expect(lesson.isRunOfLesson("run-2")).toBe(false);
   });
 
   it("waits for the choice where one is free", async () => {
@@ -183,7 +183,7 @@ describe("a step's run", () => {
     calls.recordStep.mockRejectedValue(new RefusedError(409, "The disk is full."));
     await lesson.run(step("lever"));
     expect(calls.start).not.toHaveBeenCalled();
-    expect(lesson.trial.value).toBeNull();
+    expect(lesson.activeRun.value).toBeNull();
   });
 
   it("goes on to the step's end, and is then stopped and judged once", async () => {
@@ -200,8 +200,8 @@ describe("a step's run", () => {
     expect(calls.stopRecording).toHaveBeenCalledOnce();
     expect(calls.pause).toHaveBeenCalledTimes(2);
     expect(calls.checkRun).toHaveBeenCalledExactlyOnceWith("mechanism", "lever", "run-1");
-    expect(lesson.judged.value?.run).toBe("run-1");
-    expect(lesson.trial.value).toBeNull();
+    expect(lesson.lastAssessment.value?.run).toBe("run-1");
+    expect(lesson.activeRun.value).toBeNull();
   });
 
   it("that ends in a fault, or that another user stopped, is assessed up to its end", async () => {
@@ -209,7 +209,7 @@ describe("a step's run", () => {
     for (const ended of [{ status: "fault", recording }, { recording: null }]) {
       session.value = state({ recording });
       lesson.resume(step("lever"));
-      expect(lesson.trial.value?.run).toBe("run-1");
+      expect(lesson.activeRun.value?.run).toBe("run-1");
       calls.checkRun.mockClear();
       session.value = state({ time_s: 2, ...ended });
       await lesson.follow();
@@ -221,9 +221,9 @@ describe("a step's run", () => {
   it("is followed again after a reload, and only by the step it is of", () => {
     session.value = state({ recording });
     lesson.resume(step("bend"));
-    expect(lesson.trial.value).toBeNull();
+    expect(lesson.activeRun.value).toBeNull();
     lesson.resume(step("lever"));
-    expect(lesson.trial.value).toMatchObject({ exercise: "mechanism", step: "lever" });
+    expect(lesson.activeRun.value).toMatchObject({ exercise: "mechanism", step: "lever" });
   });
 
   it("is judged when its record is finished, not before", async () => {
@@ -252,7 +252,7 @@ describe("what is shown of a step", () => {
     const bend = step("bend", { results: [result("bend", "kept")] });
     expect(lesson.resultsOf(lever)).toEqual(lever.results);
     const newest = [result("lever", "new"), result("predict-lever", "new")];
-    lesson.judged.value = { step: "lever", run: "run-2", results: newest };
+    lesson.lastAssessment.value = { step: "lever", run: "run-2", results: newest };
     expect(lesson.resultsOf(lever)).toEqual([newest[0]]);
     expect(lesson.resultsOf(bend)).toEqual(bend.results);
   });
@@ -275,7 +275,7 @@ describe("what is shown of a step", () => {
         arrive = resolve;
       }),
     );
-    const visited = lesson.visit("mechanism", "predict-lost");
+    const visited = lesson.storePlace("mechanism", "predict-lost");
     const answered = course({ changes: 2, at: "answered" });
     calls.putAnswer.mockResolvedValue(answered);
     await lesson.answer(step("predict-lost"), 0.544);
@@ -294,7 +294,7 @@ describe("what is shown of a step", () => {
 
   it("keeps no place of one who only watches, and does not complain of it", async () => {
     calls.putPlace.mockRejectedValue(new RefusedError(403, "An observer changes nothing."));
-    await lesson.visit("mechanism", "lever");
+    await lesson.storePlace("mechanism", "lever");
     expect(lesson.problem.value).toBe("");
   });
 });

@@ -2,8 +2,18 @@ import "../../browserless";
 import { beforeEach, describe, expect, test, vi } from "vitest";
 import type { Grades, Submission } from "../../../src/core/api/course";
 
-const { columns, gradeAll, grades, job, leave, picked, problem, shown, sumOf, ungraded } =
-  await import("../../../src/teaching/grades/grades");
+const {
+  columns,
+  gradeAll,
+  grades,
+  job,
+  unfollow: leave,
+  selection: picked,
+  problem,
+  selectedSubmission: shown,
+  sumOf,
+  ungraded,
+} = await import("../../../src/teaching/grades/grades");
 const { formatPoints } = await import("../../../src/core/widgets/criteria");
 const { pageOfStudent } = await import("../../../src/core/api/course");
 const { readPlace, writePlace } = await import("../../../src/runs/list/place");
@@ -40,7 +50,7 @@ describe("the table", () => {
 
   test("sums what is graded and nothing else", () => {
     const [ada, bob] = CLASS.students as [Grades["students"][0], Grades["students"][0]];
-    expect(sumOf(ada)).toEqual({ points: 17.25, most: 20 });
+    expect(sumOf(ada)).toEqual({ points: 17.25, maximum: 20 });
     expect(sumOf(bob)).toBeNull();
     expect(ungraded.value).toBe(1);
   });

@@ -6,16 +6,16 @@ const { COLUMNS, sortEntries } = await import("../../../src/teaching/leaderboard
 const {
   board,
   entries,
-  isEntered,
+  hasSubmittedEntry: isEntered,
   job,
-  leave,
-  looked,
-  note,
+  unfollow: leave,
+  shownEntry: looked,
+  existingEntryKey: note,
   openBoard,
   problem,
   sort,
   submit,
-  submitted,
+  submittedKey: submitted,
 } = await import("../../../src/teaching/leaderboard/leaderboard");
 const { place, readPlace, writePlace } = await import("../../../src/runs/list/place");
 const { atMoment } = await import("../../../src/core/api/runs");

@@ -1,4 +1,4 @@
-/** What was done is submitted. */
+/** Submission of an exercise. */
 import { useEffect, useState } from "preact/hooks";
 import { GRADES_PAGE, readOwnGrades, type Submission } from "../../core/api/course";
 import { explain } from "../../core/state/actions";
@@ -7,12 +7,12 @@ import { personName } from "../../core/state/preferences";
 import { text } from "../../core/text/en";
 import { Criteria, formatPoints, VerifiedRuns } from "../../core/widgets/criteria";
 import { PlaceLink } from "../../runs/list/place";
-import { isBusy, submit, type Task } from "./lesson";
+import { isBusy, submit, type TaskProps } from "./lesson";
 import { OwnLaw } from "./ownlaw";
 
 const words = text.lesson;
 
-export function Ending({ of, exercise, onDone }: Task) {
+export function SubmissionPanel({ of, exercise, onDone }: TaskProps) {
   const [name, setName] = useState(personName.peek());
   if (exercise.submitted_at !== null) {
     return (
@@ -28,7 +28,7 @@ export function Ending({ of, exercise, onDone }: Task) {
   const missing = exercise.parts.filter((one) => exercise.missing.includes(one.name));
   return (
     <>
-      {of.law && <OwnLaw kept={exercise.law} html={of.html} />}
+      {of.law && <OwnLaw savedLaw={exercise.law} html={of.html} />}
       <form
         class="stack lesson-form"
         onSubmit={async (event) => {
@@ -81,7 +81,7 @@ export function Ending({ of, exercise, onDone }: Task) {
   );
 }
 
-// The grade of what was submitted, once there is one.
+// The grade of the submission, once there is one.
 
 const gradeWords = text.grades;
 
