@@ -4,11 +4,11 @@ import { perform } from "../core/state/actions";
 import { mayCommand } from "../core/state/control";
 import { isLive } from "../core/state/session";
 import { text } from "../core/text/en";
-import { isHeld } from "./hold";
-import { type Allowed, allowedOn, isLoopLost } from "./status";
+import { isSwitchHeld } from "./hold";
+import { type AllowedCommands, allowedCommands, isLoopLost } from "./status";
 
 interface Action {
-  name: Exclude<keyof Allowed, "home">;
+  name: Exclude<keyof AllowedCommands, "home">;
   label: string;
   hint: string;
   send: () => Promise<SessionState>;
@@ -34,9 +34,12 @@ const actionsOn = (bench: BenchState): readonly Action[] =>
     ? ACTIONS.map((action) => (action.name === "clear" ? RESTART : action))
     : ACTIONS;
 
-/** Commands from one state of the bench to the next; the next step is highlighted. Any user may stop. */
+/**
+ * Commands from one state of the bench to the next; the next step is highlighted. Every user may
+ * stop.
+ */
 export function BenchButtons({ bench }: { bench: BenchState }) {
-  const allowed = allowedOn(bench, isHeld.value);
+  const allowed = allowedCommands(bench, isSwitchHeld.value);
   return (
     <fieldset class="bench-buttons" disabled={!isLive.value} aria-label={text.bench.heading}>
       {actionsOn(bench).map(({ name, label, hint, send }) => {

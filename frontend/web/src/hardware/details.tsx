@@ -10,9 +10,9 @@ import { type Freshness, freshnessOf, isStarting } from "./status";
 const SIGNS = { fresh: "✓", stale: "▲", lost: "▲" } as const;
 /** The first two sources; the third is the deflection encoder. */
 const DRIVES = 2;
-/** What is older says nothing of the present. */
-const HEARD: readonly Freshness[] = ["fresh", "stale"];
-/** Drives say nothing before they are brought up, nor after a fault. */
+/** Older values are not shown. */
+const SENDING_SIGNS: readonly Freshness[] = ["fresh", "stale"];
+/** Drives send nothing before they are enabled, nor after a fault. */
 const QUIET: readonly BenchState["status"][] = ["off", "reset", "config", "mode", "fault"];
 
 function Problems({ problems }: { problems: readonly string[] }) {
@@ -65,8 +65,8 @@ function Drives({ bench }: { bench: BenchState }) {
           {ages.map((age, index) => {
             const speaks = index >= DRIVES || !QUIET.includes(bench.status);
             const level = freshnessOf(age, bench, speaks);
-            const isHeard = HEARD.includes(level);
-            const current = isHeard ? currents?.[index] : undefined;
+            const isSending = SENDING_SIGNS.includes(level);
+            const current = isSending ? currents?.[index] : undefined;
             return (
               <tr key={drives.names[index]}>
                 <th scope="row">{drives.names[index]}</th>
@@ -115,7 +115,7 @@ function Calibration({ bench }: { bench: BenchState }) {
   );
 }
 
-/** Everything that is known of the bench. */
+/** All data of the bench. */
 export function BenchDetails({ bench }: { bench: BenchState }) {
   return (
     <div class="bench-details">

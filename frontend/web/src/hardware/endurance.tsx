@@ -9,7 +9,7 @@ import { isLoopLost } from "./status";
 const { endurance: words } = text.bench;
 const PAUSE_MS = 400;
 
-/** What the answer depends on: the load, the settings, the other loads. */
+/** Inputs of the prediction: the load, the settings, the other loads. */
 function questionOf(load: Load | null): string | null {
   const state = session.value;
   if (load === null || !isLive.value || !state?.bench || isLoopLost(state.bench)) return null;

@@ -13,7 +13,7 @@ const sharesOf = ({ heat, allowed_torque_nm: allowed, lasting_torque_nm: lasting
     formatNumber(lasting, 3, 2),
   ] as const;
 
-/** How warm a motor is, and whether its torque is held back; a cell of the table of sources. */
+/** Temperature of a motor, and whether its torque is limited; a cell of the table of sources. */
 export function Heat({ motor }: { motor: Motor | undefined }) {
   if (motor === undefined || !isLive.value) return <td>{text.bench.drives.none}</td>;
   const [share, allowed] = sharesOf(motor);
@@ -30,7 +30,7 @@ export function Heat({ motor }: { motor: Motor | undefined }) {
   );
 }
 
-/** In sight while heat holds a motor back: what it takes from the law, and what to do. */
+/** Shown while heat limits a motor: the reduction of its torque, and what to do. */
 export function HeatWarning({ bench: { motors } }: { bench: BenchState }) {
   const held = (motors ?? []).map((motor, index) => ({ motor, index }));
   const now = isLive.value ? held.filter(({ motor }) => motor.held_back) : [];

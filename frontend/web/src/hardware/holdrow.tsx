@@ -3,34 +3,41 @@ import type { BenchState } from "../core/api/types";
 import { mayCommand, otherHolder } from "../core/state/control";
 import { isLive } from "../core/state/session";
 import { text } from "../core/text/en";
-import { ended, type Grip, hold, isHeld, letGo, wordsFor } from "./hold";
+import {
+  holdEnd,
+  holdMessage,
+  isSwitchHeld,
+  pressInput,
+  releaseInput,
+  type SwitchInput,
+} from "./hold";
 
 const words = text.hold;
-const isGripKey = (event: KeyboardEvent): boolean => event.key === " " || event.key === "Enter";
+const isSwitchKey = (event: KeyboardEvent): boolean => event.key === " " || event.key === "Enter";
 
 function press(event: PointerEvent & { currentTarget: HTMLElement }): void {
   if (event.button !== 0) return;
   event.currentTarget.setPointerCapture(event.pointerId);
-  hold("pointer");
+  pressInput("pointer");
 }
 
 function pressKey(event: KeyboardEvent): void {
-  if (event.ctrlKey || event.metaKey || event.altKey) letGo("button");
-  else if (isGripKey(event)) {
+  if (event.ctrlKey || event.metaKey || event.altKey) releaseInput("button");
+  else if (isSwitchKey(event)) {
     event.preventDefault();
-    if (!event.repeat) hold("button");
+    if (!event.repeat) pressInput("button");
   }
 }
 
-const letGoOf = (grip: Grip) => () => letGo(grip);
+const releaseOn = (grip: SwitchInput) => () => releaseInput(grip);
 
 /** On a bench that requires it: the switch that a user holds while the bench runs. */
 export function HoldRow({ bench: { status } }: { bench: BenchState }) {
   const id = useId();
-  const held = isHeld.value;
+  const held = isSwitchHeld.value;
   const other = otherHolder.value;
   const label =
-    other === null ? words.words[wordsFor(status, held, ended.value)] : words.other(other);
+    other === null ? words.words[holdMessage(status, held, holdEnd.value)] : words.other(other);
   return (
     <section class="hold" aria-label={words.heading}>
       <button
@@ -42,15 +49,15 @@ export function HoldRow({ bench: { status } }: { bench: BenchState }) {
         title={words.keyHint}
         disabled={!mayCommand.value}
         onPointerDown={press}
-        onPointerUp={letGoOf("pointer")}
-        onPointerCancel={letGoOf("pointer")}
-        onLostPointerCapture={letGoOf("pointer")}
+        onPointerUp={releaseOn("pointer")}
+        onPointerCancel={releaseOn("pointer")}
+        onLostPointerCapture={releaseOn("pointer")}
         onContextMenu={(event) => event.preventDefault()}
         onKeyDown={pressKey}
         onKeyUp={(event) => {
-          if (isGripKey(event)) letGo("button");
+          if (isSwitchKey(event)) releaseInput("button");
         }}
-        onBlur={letGoOf("button")}
+        onBlur={releaseOn("button")}
       >
         {words.button} <kbd>{words.key}</kbd>
       </button>

@@ -3,10 +3,10 @@ import { confirmHome } from "../core/api/client";
 import type { Axis, BenchState } from "../core/api/types";
 import { perform } from "../core/state/actions";
 import { mayCommand } from "../core/state/control";
-import { personName, rememberPerson } from "../core/state/preferences";
+import { personName, setPersonName } from "../core/state/preferences";
 import { text } from "../core/text/en";
 import { Problem } from "../core/widgets/form";
-import { allowedOn } from "./status";
+import { allowedCommands } from "./status";
 
 const { homing: words } = text.bench;
 const AXES: readonly Axis[] = ["link", "motor1", "motor2"];
@@ -45,7 +45,7 @@ function Confirmation({ axis, isAllowed }: { axis: Axis; isAllowed: boolean }) {
         maxLength={100}
         autocomplete="name"
         value={personName.value}
-        onInput={(event) => rememberPerson(event.currentTarget.value)}
+        onInput={(event) => setPersonName(event.currentTarget.value)}
       />
       <button
         type="submit"
@@ -70,7 +70,7 @@ export function Homing({ bench }: { bench: BenchState }) {
         {next === null ? words.allDone : instruction}
       </p>
       {next !== null && (
-        <Confirmation axis={next} isAllowed={allowedOn(bench).home && mayCommand.value} />
+        <Confirmation axis={next} isAllowed={allowedCommands(bench).home && mayCommand.value} />
       )}
       <Problem control="bench.home" />
     </section>

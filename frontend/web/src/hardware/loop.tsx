@@ -17,7 +17,7 @@ const LEVELS = {
 } as const;
 const count = (value: number) => value.toLocaleString("en");
 
-/** How late the ticks were, a bar a bin, on a logarithmic axis of counts. */
+/** Histogram of the lateness of ticks, with a logarithmic axis of counts. */
 function Lateness({ loop }: { loop: LoopState }) {
   const { lateness_edges_s: edges, lateness_counts: counts } = loop;
   const bars = barsOf(edges, counts);
@@ -71,8 +71,12 @@ function Lateness({ loop }: { loop: LoopState }) {
   );
 }
 
-/** Who keeps the drives at zero current where the loop does not. */
-function Rescue({ loop: { state, stopped_by: by, unreachable } }: { loop: LoopState }) {
+/** The process that keeps the drives at zero current if the loop does not. */
+function RestartInstructions({
+  loop: { state, stopped_by: by, unreachable },
+}: {
+  loop: LoopState;
+}) {
   if (state !== "silent" && state !== "gone") return null;
   return (
     <p class={by === null ? "bad" : ""}>
@@ -82,7 +86,7 @@ function Rescue({ loop: { state, stopped_by: by, unreachable } }: { loop: LoopSt
   );
 }
 
-/** How punctual the loop's process is, and what the system gave it. */
+/** Timing of the loop's process, and its real-time privileges. */
 export function Loop({ loop }: { loop: LoopState }) {
   const { quantiles } = words;
   const lapse = (seconds: number) => (loop.ticks === 0 ? words.noneYet : formatLapse(seconds));
@@ -108,7 +112,7 @@ export function Loop({ loop }: { loop: LoopState }) {
           <small>{text.bench.drives.notKnown}</small>
         )}
       </h2>
-      {isLive.value && <Rescue loop={loop} />}
+      {isLive.value && <RestartInstructions loop={loop} />}
       <div class="loop-columns">
         <Lateness loop={loop} />
         <dl class="facts" aria-label={words.lateness}>

@@ -1,12 +1,12 @@
-/** Where a bench is, what may be done there, and what comes next. */
+/** State of a bench, possible commands, and the next step. */
 import type { BenchState, BenchStatus, SessionState } from "../core/api/types";
 
 export const STAGES = ["off", "reset", "config", "mode", "ready", "run"] as const;
 type Stage = (typeof STAGES)[number];
-type Place = "done" | "here" | "ahead";
+type StagePosition = "done" | "here" | "ahead";
 
-/** A ramp is the end of a run; a fault is nowhere on the way; null: unknown. */
-export function placeOf(stage: Stage, status: BenchStatus | null): Place {
+/** A ramp is the end of a run; a fault has no position in the sequence; null: unknown. */
+export function stagePosition(stage: Stage, status: BenchStatus | null): StagePosition {
   if (status === "fault" || status === null) return "ahead";
   const here = STAGES.indexOf(status === "ramp" ? "run" : status);
   const index = STAGES.indexOf(stage);
@@ -19,12 +19,12 @@ const isHomed = (bench: BenchState): boolean => bench.homing.next_step === null;
 /** Whether its loop does not tick: the only command it accepts is a restart. */
 export const isLoopLost = ({ loop }: BenchState): boolean => loop.state !== "ticking";
 
-/** Whether its loop has never ticked: there is nothing that could have been lost. */
+/** Whether its loop has never ticked: then it cannot have been lost. */
 export const isNeverOpened = ({ loop }: BenchState): boolean => loop.state === "not_opened";
 
 export const isStarting = ({ loop }: BenchState): boolean => loop.state === "starting";
 
-export interface Allowed {
+export interface AllowedCommands {
   arm: boolean;
   run: boolean;
   stop: boolean;
@@ -33,12 +33,15 @@ export interface Allowed {
   home: boolean;
 }
 
-/** What the server will take; it has the last word. held: the dead-man's switch, which a start needs. */
-export function allowedOn(bench: BenchState, held = false): Allowed {
+/**
+ * Commands that the server should accept; the server decides. isSwitchHeld: the dead-man's switch,
+ * required for a start.
+ */
+export function allowedCommands(bench: BenchState, isSwitchHeld = false): AllowedCommands {
   const { status } = bench;
   return {
     arm: status === "off" && bench.problems.length === 0 && !isLoopLost(bench),
-    run: status === "ready" && isHomed(bench) && (held || !bench.dead_man),
+    run: status === "ready" && isHomed(bench) && (isSwitchHeld || !bench.dead_man),
     stop: status === "run",
     clear: status === "fault" && !isLoopLost(bench),
     restart: isLoopLost(bench) && !isStarting(bench),
@@ -62,7 +65,7 @@ export type Advice =
   | "ramping"
   | "clear";
 
-/** The encoder may be heard before the drives are armed; they speak only then. */
+/** The encoder may send before the drives are armed; the drives send only afterwards. */
 function adviceBeforeArming(bench: BenchState): Advice {
   const { problems, supervised, ages_s: ages } = bench;
   if (problems.length > 0) return "problems";
@@ -70,8 +73,8 @@ function adviceBeforeArming(bench: BenchState): Advice {
   return ["lost", "unheard"].includes(freshnessOf(ages[2], bench)) ? "unheard" : "arm";
 }
 
-/** The next thing to do. held: the dead-man's switch. */
-export function adviceFor(bench: BenchState, held = false): Advice {
+/** The next step. isSwitchHeld: the dead-man's switch. */
+export function adviceFor(bench: BenchState, isSwitchHeld = false): Advice {
   if (isStarting(bench)) return "starting";
   if (isLoopLost(bench)) return isNeverOpened(bench) ? "notOpened" : "loop";
   switch (bench.status) {
@@ -79,7 +82,7 @@ export function adviceFor(bench: BenchState, held = false): Advice {
       return adviceBeforeArming(bench);
     case "ready":
       if (!isHomed(bench)) return "home";
-      return allowedOn(bench, held).run ? "run" : "hold";
+      return allowedCommands(bench, isSwitchHeld).run ? "run" : "hold";
     case "run":
       return "running";
     case "ramp":
@@ -91,13 +94,13 @@ export function adviceFor(bench: BenchState, held = false): Advice {
   }
 }
 
-/** Whether the details have something to be read or done before it runs. */
+/** Whether the details contain something to read or do before it runs. */
 export function needsDetails(bench: BenchState): boolean {
-  const isStanding = bench.status === "off" || bench.status === "ready";
-  return isStanding && !isStarting(bench) && (bench.problems.length > 0 || !isHomed(bench));
+  const isStopped = bench.status === "off" || bench.status === "ready";
+  return isStopped && !isStarting(bench) && (bench.problems.length > 0 || !isHomed(bench));
 }
 
-/** Whether a simulation stands where a quick stop left it. */
+/** Whether a simulation is stopped after a quick stop. */
 export function isStoppedSimulation({ bench, status, tick, events }: SessionState): boolean {
   const isStop = (event: { kind: string; tick: number }) =>
     event.kind === "quick_stop" && event.tick === tick;
@@ -106,13 +109,13 @@ export function isStoppedSimulation({ bench, status, tick, events }: SessionStat
 
 export const isQuickStop = ({ fault }: SessionState): boolean => fault?.code === "quick_stop";
 
-// The histogram of a loop's lateness as bars, and how old a reading may be.
+// The histogram of a loop's lateness as bars, and the permitted age of a reading.
 
 interface Bar {
   /** Upper edge, s; null for the last bin, which has none. */
   edgeS: number | null;
   count: number;
-  /** From 0 to 1 on a logarithmic axis, so that one late tick in a million is still seen. */
+  /** From 0 to 1 on a logarithmic axis, so that one late tick in a million is visible. */
   height: number;
 }
 
@@ -125,21 +128,22 @@ export function barsOf(edgesS: readonly number[], counts: readonly number[]): Ba
   }));
 }
 
-/** How many decades of the axis the bars fill. */
+/** Number of decades of the axis. */
 export const decadesIn = (counts: readonly number[]): number =>
   Math.max(1, ...counts.map(decadesOf));
 
-/** One tick stands a little above the ground, ten one decade higher. */
-const FOOT = 0.3;
-const decadesOf = (count: number): number => (count <= 0 ? 0 : FOOT + Math.log10(count));
+/** One tick is slightly above the baseline, ten are one decade higher. */
+const BASELINE_DECADES = 0.3;
+const decadesOf = (count: number): number =>
+  count <= 0 ? 0 : BASELINE_DECADES + Math.log10(count);
 
 export type Freshness = "fresh" | "stale" | "lost" | "silent" | "unheard";
-/** What the server says where there was nothing to be heard yet. */
-const UNHEARD_S = 1000;
+/** Value of the server for a source without readings yet. */
+const NO_READING_S = 1000;
 
 /**
- * By the bounds of the bench file, above which the torque goes to zero, and above which it is a
- * fault. speaks: whether it should be heard at all; a drive that is not armed says nothing.
+ * Compared with the bounds of the bench file, above which the torque becomes zero, and above which
+ * a fault occurs. isExpected: whether readings are expected; a drive that is not armed sends none.
  */
 export function freshnessOf(
   ageS: number,
@@ -147,10 +151,10 @@ export function freshnessOf(
     stale_zero_s: staleS,
     stale_fault_s: lostS,
   }: Pick<BenchState, "stale_zero_s" | "stale_fault_s">,
-  speaks = true,
+  isExpected = true,
 ): Freshness {
-  if (!(ageS <= lostS) && !speaks) return "silent";
-  if (ageS >= UNHEARD_S) return "unheard";
+  if (!(ageS <= lostS) && !isExpected) return "silent";
+  if (ageS >= NO_READING_S) return "unheard";
   if (!(ageS <= lostS)) return "lost";
   return ageS > staleS ? "stale" : "fresh";
 }

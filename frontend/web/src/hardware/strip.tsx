@@ -1,21 +1,21 @@
 import { useId, useState } from "preact/hooks";
 import type { BenchState } from "../core/api/types";
-import { isLive, mark } from "../core/state/session";
+import { isLive, plantKind } from "../core/state/session";
 import { text } from "../core/text/en";
 import { Problem } from "../core/widgets/form";
 import { BenchButtons } from "./buttons";
 import { BenchDetails } from "./details";
 import { HeatWarning } from "./heat";
-import { isHeld } from "./hold";
+import { isSwitchHeld } from "./hold";
 import { HoldRow } from "./holdrow";
-import { adviceFor, isStarting, needsDetails, placeOf, STAGES } from "./status";
+import { adviceFor, isStarting, needsDetails, STAGES, stagePosition } from "./status";
 
-/** OFF → RUN as one line; the state is shown by sign and word, not by color alone. */
+/** OFF → RUN as one line; the state is shown by icon and text, not by color alone. */
 function Progress({ status }: { status: BenchState["status"] | null }) {
   return (
     <ol class={`stages is-${status ?? "unknown"}`} aria-label={text.bench.stages}>
       {STAGES.map((stage) => {
-        const place = placeOf(stage, status);
+        const place = stagePosition(stage, status);
         return (
           <li
             key={stage}
@@ -32,15 +32,15 @@ function Progress({ status }: { status: BenchState["status"] | null }) {
   );
 }
 
-/** The band below the header of a bench: what it is, where it is, and what may be done next. */
+/** The strip below the header of a bench: kind, state, and possible next commands. */
 export function BenchStrip({ bench }: { bench: BenchState }) {
   const id = useId();
   const isNeeded = needsDetails(bench);
   const [chosen, choose] = useState<{ isNeeded: boolean; isOpen: boolean } | null>(null);
   const isOpen = chosen?.isNeeded === isNeeded ? chosen.isOpen : isNeeded;
-  const kind = mark.value ?? "real";
+  const kind = plantKind.value ?? "real";
   const status = isStarting(bench) ? text.bench.starting : text.bench.status[bench.status];
-  const advice = text.bench.advice[adviceFor(bench, isHeld.value)];
+  const advice = text.bench.advice[adviceFor(bench, isSwitchHeld.value)];
   return (
     <section class={`bench is-${kind}`} aria-label={text.bench.heading}>
       <div class="bench-strip">

@@ -22,14 +22,14 @@ describe("the dead-man's switch", () => {
     const { signal } = await import("@preact/signals");
     const mayCommand = signal(true);
     const session = signal<object | null>({ bench: { dead_man: true, status: "ready" } });
-    const saySwitchIsHeld = () => void said.push("held");
-    vi.doMock("../../src/core/state/session", () => ({ session, saySwitchIsHeld }));
+    const sendSwitchHeld = () => void said.push("held");
+    vi.doMock("../../src/core/state/session", () => ({ session, sendSwitchHeld }));
     vi.doMock("../../src/core/state/control", () => ({ mayCommand }));
     return { ...(await import("../../src/hardware/hold")), mayCommand, session };
   }
 
   it("speaks at once and every 40 ms until the last grip is released", async () => {
-    const { hold, letGo, isHeld } = await load();
+    const { pressInput: hold, releaseInput: letGo, isSwitchHeld: isHeld } = await load();
     hold("key");
     hold("pointer");
     expect(said).toHaveLength(1);
@@ -43,7 +43,7 @@ describe("the dead-man's switch", () => {
   });
 
   it("is released when the window loses the focus, another takes control, or the bench is gone", async () => {
-    const { hold, watchHold, isHeld, mayCommand, session } = await load();
+    const { pressInput: hold, watchHold, isSwitchHeld: isHeld, mayCommand, session } = await load();
     watchHold();
     const losses = [
       () => window.dispatchEvent(new Event("blur")),
@@ -67,7 +67,13 @@ describe("the dead-man's switch", () => {
   });
 
   it("remembers what ended a run, until it is held again or runs again", async () => {
-    const { hold, letGo, ended, watchHold, session } = await load();
+    const {
+      pressInput: hold,
+      releaseInput: letGo,
+      holdEnd: ended,
+      watchHold,
+      session,
+    } = await load();
     watchHold();
     hold("key");
     letGo("key");
@@ -91,7 +97,7 @@ describe("the dead-man's switch", () => {
   });
 
   it("is described by the state of the bench", async () => {
-    const { wordsFor } = await load();
+    const { holdMessage: wordsFor } = await load();
     expect(wordsFor("off", false, null)).toBe("idle");
     expect(wordsFor("ready", false, null)).toBe("ready");
     expect(wordsFor("ready", true, null)).toBe("armed");

@@ -1,21 +1,21 @@
 import { describe, expect, it } from "vitest";
 import type { BenchState, SessionState } from "../../src/core/api/types";
-import { isRealBench, markOfBench } from "../../src/core/state/plant";
+import { isRealBench, plantKindOfBench } from "../../src/core/state/plant";
 import {
   adviceFor,
-  allowedOn,
+  allowedCommands,
   barsOf,
   freshnessOf,
   isStoppedSimulation,
   needsDetails,
-  placeOf,
   STAGES,
+  stagePosition,
 } from "../../src/hardware/status";
 
 const HOMED = { done: ["link", "motor1", "motor2"], next_step: null, instruction: "" };
 const UNHOMED = { done: [], next_step: "link", instruction: "Turn the link to its mark." };
 
-/** As a bench file has them that sets none of its own. */
+/** The defaults of a bench file. */
 const BOUNDS = { stale_zero_s: 0.005, stale_fault_s: 0.02 };
 const TICKING = { state: "ticking" };
 const bench = (change: object) =>
@@ -28,17 +28,18 @@ const bench = (change: object) =>
     ...change,
   }) as unknown as BenchState;
 const allowed = (change: object) =>
-  Object.entries(allowedOn(bench(change)))
+  Object.entries(allowedCommands(bench(change)))
     .filter(([, isAllowed]) => isAllowed)
     .map(([name]) => name);
 
 describe("the states of a bench", () => {
   it("lie on one line, and a ramp is still on its last place", () => {
-    const places = (status: BenchState["status"]) => STAGES.map((stage) => placeOf(stage, status));
+    const places = (status: BenchState["status"]) =>
+      STAGES.map((stage) => stagePosition(stage, status));
     expect(places("config")).toEqual(["done", "done", "here", "ahead", "ahead", "ahead"]);
     expect(places("ramp")).toEqual(places("run"));
     expect(new Set(places("fault"))).toEqual(new Set(["ahead"]));
-    const unknown = STAGES.map((stage) => placeOf(stage, null));
+    const unknown = STAGES.map((stage) => stagePosition(stage, null));
     expect(new Set(unknown), "without a connection it is nowhere").toEqual(new Set(["ahead"]));
   });
 
@@ -48,7 +49,10 @@ describe("the states of a bench", () => {
     expect(allowed({ status: "mode" })).toEqual([]);
     expect(allowed({ status: "ready" })).toEqual(["run"]);
     const deadMan = bench({ status: "ready", dead_man: true });
-    expect([allowedOn(deadMan).run, allowedOn(deadMan, true).run]).toEqual([false, true]);
+    expect([allowedCommands(deadMan).run, allowedCommands(deadMan, true).run]).toEqual([
+      false,
+      true,
+    ]);
     expect(allowed({ status: "ready", homing: UNHOMED })).toEqual(["home"]);
     expect(allowed({ homing: UNHOMED }), "marks are confirmed in READY only").toEqual(["arm"]);
     expect(allowed({ status: "run" })).toEqual(["stop"]);
@@ -88,7 +92,7 @@ describe("the states of a bench", () => {
 
 describe("what stands behind a bench", () => {
   it("is shown once the bus has reported it, not before", () => {
-    const marks = [true, false, null].map((emulated) => markOfBench(bench({ emulated })));
+    const marks = [true, false, null].map((emulated) => plantKindOfBench(bench({ emulated })));
     expect(marks).toEqual(["emulated", "real", "unknown"]);
   });
 
