@@ -1,7 +1,7 @@
 import { reset, stopRecording } from "../core/api/client";
 import { commandStatus } from "../core/api/outcome";
 import { perform } from "../core/state/actions";
-import { isAnother, phase, session } from "../core/state/session";
+import { isNewInstance, phase, session } from "../core/state/session";
 import { text } from "../core/text/en";
 import { Banner } from "../core/widgets/banner";
 import { Problem } from "../core/widgets/form";
@@ -11,25 +11,25 @@ import { place } from "../runs/list/place";
 import { RejoinCodeBanner } from "../teaching/classroom/join";
 import { ExerciseBanner } from "../teaching/course/experiment";
 
-/** For a command whose answer was lost: not known yet, or executed. */
+/** For a command whose answer was lost: outcome unknown, or executed. */
 function CommandStatus({ now }: { now: NonNullable<typeof commandStatus.value> }) {
   const words = text.connection;
-  const isAsking = now === "asking";
+  const isPending = now === "asking";
   return (
     <Banner
-      look={isAsking ? "is-lost" : "is-news"}
+      look={isPending ? "is-lost" : "is-news"}
       role="alert"
-      sign={isAsking ? "" : "✓"}
-      title={isAsking ? words.askingTitle : words.carriedOutTitle}
-      words={isAsking ? words.askingText : words.carriedOutText}
+      sign={isPending ? "" : "✓"}
+      title={isPending ? words.askingTitle : words.carriedOutTitle}
+      words={isPending ? words.askingText : words.carriedOutText}
     />
   );
 }
 
-/** The page goes on in a session that knows nothing of what was shown before. */
-function Another() {
+/** The page continues in a new session without the previous state. */
+function NewInstance() {
   const close = () => {
-    isAnother.value = false;
+    isNewInstance.value = false;
   };
   return (
     <Banner look="is-news" title={text.connection.anotherTitle} words={text.connection.anotherText}>
@@ -40,7 +40,7 @@ function Another() {
   );
 }
 
-/** What must not be overlooked: no connection, a fault, a refused command of the top bar. */
+/** Important messages: no connection, a fault, a rejected command of the top bar. */
 export function Banners() {
   const fault = session.value?.bench ? null : session.value?.fault;
   const recording = session.value?.recording;
@@ -58,7 +58,7 @@ export function Banners() {
           words={text.connection.lostText}
         />
       )}
-      {isAnother.value && !isLost && <Another />}
+      {isNewInstance.value && !isLost && <NewInstance />}
       {fault && (
         <div class="banner is-fault" role="alert">
           <span class="banner-sign" aria-hidden="true">

@@ -1,4 +1,4 @@
-/** The lab of a first experiment, and the switch to all of its controls. */
+/** The basic view of the lab, and the switch to all controls. */
 import { computed } from "@preact/signals";
 import { areAllControlsOn, toggleAllControls } from "../core/state/preferences";
 import { session } from "../core/state/session";
@@ -7,7 +7,7 @@ import { place } from "../runs/list/place";
 
 const words = text.allControls;
 
-/** An exercise names the controls that it needs, and the operator of a bench needs all of them. */
+/** An exercise lists the controls that it needs, and the operator of a bench needs all of them. */
 const hasChoice = computed(() => place.value.kind === "lab" && session.value?.bench === null);
 
 export const isBasic = computed(() => hasChoice.value && !areAllControlsOn.value);

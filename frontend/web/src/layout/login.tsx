@@ -1,28 +1,28 @@
 import { useEffect, useId, useRef, useState } from "preact/hooks";
 import { login } from "../core/api/access";
 import { RefusedError } from "../core/api/errors";
-import { access, comings, learnAccess } from "../core/state/control";
+import { access, loginCount, updateAccess } from "../core/state/control";
 import { openStream, phase } from "../core/state/session";
 import { text } from "../core/text/en";
 import { ErrorLine } from "../core/widgets/form";
 import { StopBanners, StopButton } from "../lab/safety/stopbanner";
 import { Join, SecretForm } from "../teaching/classroom/join";
 
-/** Asks once for what lets one in; the server keeps it in a cookie. */
+/** Login with a secret, code or token; the server keeps it in a cookie. */
 export function Login() {
   const id = useId();
   const dialog = useRef<HTMLDialogElement>(null);
   const [problem, setProblem] = useState("");
   useEffect(() => {
-    void learnAccess();
+    void updateAccess();
     dialog.current?.showModal();
   }, []);
 
   const enter = async (way: () => Promise<unknown>) => {
     try {
       await way();
-      await learnAccess();
-      comings.value += 1;
+      await updateAccess();
+      loginCount.value += 1;
       phase.value = "connecting";
       openStream();
     } catch (error) {

@@ -5,7 +5,7 @@ import { session } from "../core/state/session";
 import { text } from "../core/text/en";
 import { Popup } from "../core/widgets/popup";
 import { isOpen as isTuning } from "../lab/tuning/tuning";
-import { isOfRuns, type Place, PlaceLink, place } from "../runs/list/place";
+import { isRunsPlace, type Place, PlaceLink, place } from "../runs/list/place";
 
 const words = text.pages;
 type Page =
@@ -30,7 +30,7 @@ const PAGES: Readonly<Record<Page, Place>> = {
   falsifier: { kind: "falsifier", search: "", scenario: "", laws: [] },
 };
 
-/** In a class the grades are its instructor's; a student's own stand in Learn. */
+/** In a class the instructor sees the grades of all; a student's own are in Learn. */
 const shownPages = computed(() =>
   (Object.keys(PAGES) as Page[]).filter(
     (page) => page !== "grades" || !isClass.value || isInstructor.value,
@@ -39,8 +39,8 @@ const shownPages = computed(() =>
 
 const isOfActuators = computed(() => place.value.kind === "actuators");
 
-/** A run and an overlay are of the runs. */
-const pageOf = (at: Place): Page => (isOfRuns(at) ? "runs" : at.kind);
+/** A run and an overlay belong to the runs. */
+const pageOf = (at: Place): Page => (isRunsPlace(at) ? "runs" : at.kind);
 
 const EVALUATION: readonly Page[] = ["ranking", "leaderboard", "studies", "falsifier"];
 const GROUPS: readonly (readonly Page[])[] = [["lab", "runs"], ["learn", "grades"], ["ranking"]];
@@ -66,7 +66,7 @@ function Tab({ page, isHere, name = words.names[page] }: TabProps) {
   );
 }
 
-/** Lab and runs, learning, evaluation; the last opens at the ranking. */
+/** Lab and runs, learning, evaluation; the last one opens the ranking. */
 export function Tabs() {
   const here = pageOf(place.value);
   return (

@@ -24,7 +24,7 @@ function Recovered({ recovery: { seconds, words } }: { recovery: Recovery }) {
   );
 }
 
-/** The numbers that tell how well the controller does. */
+/** The main metrics of the controller. */
 export function Readout({ state }: { state: SessionState }) {
   const { window, lanes } = state;
   const metrics = lanes[0]?.in_window;

@@ -1,9 +1,9 @@
 import type { RunDetails } from "../core/api/types";
 import { text } from "../core/text/en";
-import { isOfLab, PlaceLink, place } from "../runs/list/place";
-import { type Saved, saved } from "../runs/list/saved";
+import { isLabShown, PlaceLink, place } from "../runs/list/place";
+import { type SaveStatus, saveStatus } from "../runs/list/saved";
 import { formatDuration } from "../runs/list/words";
-import { isOfLesson } from "../teaching/course/lesson";
+import { isRunOfLesson } from "../teaching/course/lesson";
 
 const words = text.recording;
 
@@ -18,13 +18,13 @@ function describeSaved({
 }
 
 /** The run of a step is reported next to the step, unless its record is incomplete. */
-const isShownThere = (now: Saved): boolean =>
-  isOfLesson(now.run) &&
+const isShownThere = (now: SaveStatus): boolean =>
+  isRunOfLesson(now.run) &&
   (now.stage === "saving" || (now.stage === "saved" && now.details.state === "complete"));
 
-/** After a recording, over the lab: that it is being saved, and then under which name it is found. */
+/** After a recording: that it is being saved, and then the name of the run. */
 export function SavedNote() {
-  const last = isOfLab(place.value) ? saved.value : null;
+  const last = isLabShown(place.value) ? saveStatus.value : null;
   const now = last === null || isShownThere(last) ? null : last;
   const [head, rest] =
     now === null
@@ -35,7 +35,7 @@ export function SavedNote() {
           ? [words.saving, ""]
           : [words.savedUnknown, ""];
   const close = () => {
-    saved.value = null;
+    saveStatus.value = null;
   };
   return (
     <div class="toast" role="status" hidden={now === null}>

@@ -8,7 +8,7 @@ import { useLiveText } from "../core/widgets/live";
 import { isStarting } from "../hardware/status";
 import { ControlCell } from "../lab/lease/cell";
 import { StopButton } from "../lab/safety/stopbanner";
-import { isOfLab, place } from "../runs/list/place";
+import { isLabShown, place } from "../runs/list/place";
 import { CornerMark } from "./marks";
 
 const STATUS_SIGNS = { running: "▶", paused: "❚❚", fault: "▲" } as const;
@@ -127,7 +127,7 @@ function Connection() {
   );
 }
 
-/** Tells the style sheets how high the bar is, for what stands above it. */
+/** Set the height of the bar as CSS variable, for elements above it. */
 function usePublishedHeight() {
   const bar = useRef<HTMLElement>(null);
   useLayoutEffect(() => {
@@ -142,14 +142,16 @@ function usePublishedHeight() {
   return bar;
 }
 
-/** Always at the bottom of the window. The state of a simulated session and its quick stop appear
- * only where the session is shown; those of a bench appear on every page. The key works on all. */
+/**
+ * Always at the bottom of the window. State and quick stop of a simulated session appear only on
+ * the lab page; those of a bench on every page. The key works on all pages.
+ */
 export function StatusBar() {
   const state = session.value;
   const bar = usePublishedHeight();
-  const isShown = isOfLab(place.value) || state?.bench != null;
+  const isShown = isLabShown(place.value) || state?.bench != null;
   const shown = isShown ? state : null;
-  // A page that does not know what the session moves keeps the button.
+  // While the plant is unknown, the button stays.
   const hasStop = isShown || state === null || !isLive.value;
   return (
     <section ref={bar} class="statusbar" aria-label={text.status.heading}>

@@ -14,7 +14,7 @@ const RUN = "M2 1l9 5-9 5z";
 const PAUSE = "M2 1h3v10H2zM7 1h3v10H7z";
 const STEPS_MS = [1, 10, 100, 1000];
 
-/** A figure runs with the lanes and the realism that the student has chosen. */
+/** A figure runs with the lanes and effects that the user has selected. */
 function run(figure: Figure, { bench, configuration }: SessionState) {
   const { law, comparisons, effects, effects_preset: preset } = configuration;
   if (bench !== null) return runFigure(figure, law, {});
@@ -24,7 +24,7 @@ function run(figure: Figure, { bench, configuration }: SessionState) {
   });
 }
 
-/** On a phone the word stands on the first figure alone. */
+/** On a phone only the first figure has the word. */
 function FigureName({ figure }: { figure: Figure }) {
   const [word, number] = text.figures.name[figure].split(" ");
   return (
@@ -114,7 +114,7 @@ function Stepper({ state }: { state: SessionState }) {
 /** Step and speed are shown while the session is paused, or with all controls. */
 export function Transport({ state, isBasic }: { state: SessionState; isBasic: boolean }) {
   const isRunning = state.status === "running";
-  const wish = isRunning ? text.transport.pause : text.transport.run;
+  const action = isRunning ? text.transport.pause : text.transport.run;
   return (
     <fieldset class="transport" aria-label={text.transport.heading}>
       <button
@@ -129,7 +129,7 @@ export function Transport({ state, isBasic }: { state: SessionState; isBasic: bo
             <svg viewBox="0 0 12 12" aria-hidden="true">
               <path d={isRunning ? PAUSE : RUN} />
             </svg>
-            {wish}
+            {action}
           </>
         ) : (
           <>
@@ -157,7 +157,7 @@ export function Transport({ state, isBasic }: { state: SessionState; isBasic: bo
   );
 }
 
-/** Begins and ends a recording, and tells how long it is. */
+/** Start and stop a recording, and show its length. */
 export function RecordButton({ state }: { state: SessionState }) {
   const { recording, rate_hz: rateHz } = state;
   if (!isLive.value) {

@@ -11,13 +11,16 @@ import { SceneTools } from "../lab/scene/tools";
 import { beginAt, enterView, fitCamera, isLow } from "../lab/scene/viewer";
 import { CornerMark } from "./marks";
 
-/** viser's page in the frame, its first camera fitted to the frame. */
+/** viser's page in the frame, with its first camera fitted to the frame. */
 function load(frame: HTMLIFrameElement): void {
   const first = addressOf(beginAt("whole", frame.clientWidth / frame.clientHeight));
   frame.src = `viser/${sessionName}/?${first}${theme.peek() === "dark" ? "&darkMode" : ""}`;
 }
 
-/** The actuator in 3D, served by viser and loaded again after each lost connection; without WebGL in 2D. */
+/**
+ * The actuator in 3D, served by viser and loaded again after each lost connection; without WebGL in
+ * 2D.
+ */
 export function View({ isBasic }: { isBasic: boolean }) {
   const connection = connectionCount.value;
   const frame = useRef<HTMLIFrameElement | null>(null);

@@ -1,4 +1,4 @@
-/** The pages that the lab can do without: one file, fetched when the first of them is opened. */
+/** Pages other than the lab: one file, loaded when the first of them is opened. */
 export { FalsifierPage as falsifier } from "../evaluation/falsifier/page";
 export { RankingPage as ranking } from "../evaluation/ranking/page";
 export { StudiesPage as studies } from "../evaluation/studies/page";

@@ -2,21 +2,21 @@ import { signal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { text } from "../core/text/en";
 
-type Pages = typeof import("./farther");
+type Pages = typeof import("./otherpages");
 
 const pages = signal<Pages | null>(null);
 const isMissing = signal(false);
 
 async function fetchPages(): Promise<void> {
   try {
-    pages.value = await import("./farther");
+    pages.value = await import("./otherpages");
   } catch {
     isMissing.value = true;
   }
 }
 
-/** A page that is not in the first file, as soon as it is fetched. */
-export function FetchedPage({ name }: { name: keyof Pages }) {
+/** A page outside the first file, shown when it has loaded. */
+export function LazyPage({ name }: { name: keyof Pages }) {
   useEffect(() => {
     if (pages.peek() === null) void fetchPages();
   }, []);
