@@ -1,4 +1,4 @@
-/** The documentation of REST and stream: Swagger UI from this server, and nothing from elsewhere. */
+/** The documentation of REST and stream: Swagger UI, served by this server only. */
 import { effect } from "@preact/signals";
 import SwaggerUI from "swagger-ui-dist/swagger-ui-es-bundle.js";
 import "swagger-ui-dist/swagger-ui.css";
