@@ -1,7 +1,8 @@
 import { computed } from "@preact/signals";
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
+import type { Joint } from "../api/arm";
 import { EquationButton } from "../equations/equation";
-import type { Cast } from "../state/lanes";
+import type { LaneSegments } from "../state/lanes";
 import { lawOf } from "../state/laws";
 import { session } from "../state/session";
 import { text } from "../text/en";
@@ -10,15 +11,16 @@ import { CHANNELS, spanOf, unitOf } from "./channels";
 import { Chart } from "./chart";
 import { ChartBox } from "./chartbox";
 import { ownerOf, readPiece, type Trace } from "./definitions";
-import { EVENT_VIEW, isZoomOn, zoomedCast } from "./eventzoom";
+import { EVENT_VIEW, isZoomOn, zoomedLaneSegments } from "./eventzoom";
 import { onFrame } from "./frame";
 import { hoverShare, sampleRead } from "./hover";
+import { composeOfJoint, lanesOfJoint } from "./joints";
 import { Legend, useHidden } from "./legend";
 import { PlotMenu } from "./menu";
 import { type PhaseChannels, PhaseChart } from "./phase";
 import type { PlotSetup } from "./setups";
-import { PLOTS_VIEW, shownCast, shownRing, shownSpan } from "./span";
-import { composeContent, hasOneValue, hasUnnamedTruth, tracesOf } from "./traces";
+import { PLOTS_VIEW, shownLaneSegments, shownRing, shownSpan } from "./span";
+import { hasOneValue, hasUnnamedTruth, tracesOf } from "./traces";
 
 const READING_MS = 120;
 
@@ -36,20 +38,29 @@ function makeChart(host: HTMLElement, { preset, channels }: PlotSetup, traces: r
 const makeZoom = (host: HTMLElement, { channels }: PlotSetup, traces: readonly Trace[]) =>
   new Chart(host, traces, spanOf(channels), EVENT_VIEW);
 
-/** The curves of a plot as its reader wants them. */
-function useTraces({ preset, channels }: PlotSetup, chosen: ReadonlySet<string>, lanes: Cast) {
+/** The curves of a plot, as the user has selected them. */
+function useTraces(
+  { preset, channels }: PlotSetup,
+  chosen: ReadonlySet<string>,
+  lanes: LaneSegments,
+  joint: Joint | null,
+) {
   const drawn = preset === "phase" ? channels.slice(1) : channels;
   const key = drawn.join();
-  const content = useMemo(() => composeContent(drawn, lanes), [key, lanes]);
+  const content = useMemo(() => composeOfJoint(drawn, lanes, joint), [key, lanes, joint]);
   const groupKeys = content.groups.map((group) => group.key);
   const valid = groupKeys.filter((group) => chosen.has(group));
   const shown = new Set(valid.length > 0 ? valid : groupKeys.slice(0, 1));
   const shownKey = [...shown].join();
-  const traces = useMemo(() => tracesOf(content, shown, lanes.length), [content, shownKey]);
-  return { content, shown, traces, isSideBySide: lanes.length > 1 };
+  const count = lanesOfJoint(lanes.length, joint).length;
+  const traces = useMemo(() => tracesOf(content, shown, count), [content, shownKey]);
+  return { content, shown, traces, isSideBySide: count > 1 };
 }
 
-/** Writes the values under the pointer, or the newest, into the legend; hides controllers that left the span. */
+/**
+ * Write the values under the pointer, or the newest, into the legend; hide controllers that left
+ * the span.
+ */
 function keepReadings(traces: readonly Trace[], readings: ReadonlyMap<string, HTMLElement>) {
   let readAt = 0;
   const read = () => {
@@ -86,7 +97,7 @@ interface ChooserProps {
   onChoose: (keys: ReadonlySet<string>) => void;
 }
 
-/** Which quantities are drawn where several lanes have several; one at least. */
+/** Selection of the quantities if several lanes have several; at least one. */
 function Chooser({ title, groups, shown, onChoose }: ChooserProps) {
   const toggle = (key: string) => {
     const next = new Set(shown);
@@ -105,22 +116,39 @@ function Chooser({ title, groups, shown, onChoose }: ChooserProps) {
   );
 }
 
-/** `isBasic` leaves out its equation and its menu. */
-export function Plot({ setup, isBasic }: { setup: PlotSetup; isBasic: boolean }) {
+interface PlotProps {
+  setup: PlotSetup;
+  /** Leaves out its equation and its menu. */
+  isBasic: boolean;
+  /** Of an arm; null for a single joint. */
+  joint?: Joint | null;
+}
+
+export function Plot({ setup, isBasic, joint = null }: PlotProps) {
   const [chosen, setChosen] = useState<ReadonlySet<string>>(new Set());
   const [hidden, toggle] = useHidden();
-  const { content, shown, traces, isSideBySide } = useTraces(setup, chosen, shownCast.value);
+  const { content, shown, traces, isSideBySide } = useTraces(
+    setup,
+    chosen,
+    shownLaneSegments.value,
+    joint,
+  );
   const isPhase = setup.preset === "phase";
   const isZoomed = isZoomOn.value && !isPhase;
-  const zoomed = useTraces(setup, chosen, isZoomed ? zoomedCast() : shownCast.value).traces;
+  const zoomed = useTraces(
+    setup,
+    chosen,
+    isZoomed ? zoomedLaneSegments() : shownLaneSegments.value,
+    joint,
+  ).traces;
   const readings = useRef(new Map<string, HTMLElement>()).current;
   useEffect(() => keepReadings(traces, readings), [traces]);
-  const title = titleOf(setup);
+  const title = joint === null ? titleOf(setup) : text.plots.ofJoint(joint, titleOf(setup));
   return (
     <section
       class={`plot ${isPhase ? "is-phase" : ""}`}
       aria-label={text.plots.plotOf(title)}
-      data-plot={setup.key}
+      data-plot={joint === null ? setup.key : `${setup.key}.${joint}`}
     >
       <div class="plot-head">
         <h3 tabIndex={-1}>
@@ -151,7 +179,7 @@ export function Plot({ setup, isBasic }: { setup: PlotSetup; isBasic: boolean })
   );
 }
 
-/** The laws that act on no estimate. */
+/** The laws that use no estimate. */
 const lawsWithout = computed(() => {
   const laws = (session.value?.lanes ?? []).map(({ law }) => lawOf(law));
   return [...new Set(laws.flatMap((law) => (law?.estimate === "none" ? [law.title] : [])))].join(

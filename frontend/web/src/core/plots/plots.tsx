@@ -1,6 +1,8 @@
 /** The list of plots, which shows whole plots only and scrolls to the others. */
 import type { RefObject } from "preact";
 import { useEffect, useRef } from "preact/hooks";
+import type { Joint } from "../api/arm";
+import { shownJoints } from "../state/arm";
 import { isLive } from "../state/session";
 import { text } from "../text/en";
 import { goTo, useBelow } from "../widgets/below";
@@ -13,22 +15,22 @@ import { HoverLine } from "./hover";
 import { MeasureTable } from "./measures";
 import { Plot } from "./plot";
 import { BASIC_SETUPS, type PlotSetup, setups } from "./setups";
-import { followSession, isHeld } from "./span";
+import { followSession, isFrozen } from "./span";
 import { TimeAxis, ZoomAxis, ZoomTitle } from "./timeaxis";
 import { Toolbar } from "./toolbar";
 
-/** The events above the plots, and the axis of time below them. */
+/** Height of the events above the plots, and of the time axis below them. */
 const TOP_PX = 22;
 const FOOT_PX = 24;
-/** A plot's title and legend, where the legend has one row. */
+/** Height of a plot's title and legend, if the legend has one row. */
 const HEAD_PX = 26;
 
-/** So far the last plot reaches under the axis: no hair of the next one is seen above it. */
+/** Overlap of the last plot and the time axis, which hides the edge of the next plot. */
 const UNDER_PX = 1;
 
 /**
- * The height of a plot, head included, px: as many as have room share the list, each picture at least
- * so high. head: of the plot with the longest legend, px.
+ * Height of a plot including its header, px: as many plots as fit share the list, each at least
+ * this high. head: header height of the plot with the longest legend, px.
  */
 export function shareOfList(height: number, leastPicture: number, head = HEAD_PX): number {
   const room = height - TOP_PX - FOOT_PX;
@@ -36,7 +38,7 @@ export function shareOfList(height: number, leastPicture: number, head = HEAD_PX
   return Math.max(0, (room + UNDER_PX) / together);
 }
 
-/** Keeps `--plot-share` of a list with these plots; returns the function that ends it. */
+/** Update `--plot-share` of a list with these plots; returns the function that stops it. */
 function keepShare(list: HTMLElement): () => void {
   const heads = [...list.querySelectorAll(".plots-stage > .plot > .plot-head")];
   const measure = () => {
@@ -49,7 +51,7 @@ function keepShare(list: HTMLElement): () => void {
   return () => resizing.disconnect();
 }
 
-/** How many plots are scrolled out of sight below; a touch goes to the first of them. */
+/** Number of plots that are scrolled out of view below; a click scrolls to the first of them. */
 function PlotsBelow({ list }: { list: RefObject<HTMLElement | null> }) {
   const below = useBelow(list, ".plot", FOOT_PX);
   const [first] = below;
@@ -67,13 +69,25 @@ function PlotsBelow({ list }: { list: RefObject<HTMLElement | null> }) {
   );
 }
 
+/** A plot of a setup for each joint of an arm; one for a single joint. */
+function PlotPerJoint({ setup, isBasic }: { setup: PlotSetup; isBasic: boolean }) {
+  const joints: readonly (Joint | null)[] = shownJoints.value ?? [null];
+  return (
+    <>
+      {joints.map((joint) => (
+        <Plot key={joint ?? 0} setup={setup} isBasic={isBasic} joint={joint} />
+      ))}
+    </>
+  );
+}
+
 interface StageProps {
   list: RefObject<HTMLElement | null>;
   shown: readonly PlotSetup[];
   isBasic: boolean;
 }
 
-/** The plots over time between the events and the axis, and what lies across all of them. */
+/** The plots over time between the events and the axis, and everything drawn across all of them. */
 function Stage({ list, shown, isBasic }: StageProps) {
   const stage = useRef<HTMLDivElement>(null);
   const box = useRef<HTMLDivElement>(null);
@@ -89,7 +103,7 @@ function Stage({ list, shown, isBasic }: StageProps) {
         {isZoomOn.value && <ZoomTitle />}
       </div>
       {overTime.map((setup) => (
-        <Plot key={setup.key} setup={setup} isBasic={isBasic} />
+        <PlotPerJoint key={setup.key} setup={setup} isBasic={isBasic} />
       ))}
       <div class="plots-box" ref={box}>
         <HoverLine />
@@ -107,7 +121,7 @@ function Stage({ list, shown, isBasic }: StageProps) {
   );
 }
 
-/** All plots, in step with each other; of a first experiment two. */
+/** All plots, synchronised; two in the basic view. */
 export function Plots({ isBasic }: { isBasic: boolean }) {
   const list = useRef<HTMLElement>(null);
   useEffect(() => {
@@ -117,11 +131,14 @@ export function Plots({ isBasic }: { isBasic: boolean }) {
     };
   }, []);
   const shown = isBasic ? BASIC_SETUPS : setups.value;
-  useEffect(() => (list.current === null ? undefined : keepShare(list.current)), [shown]);
+  useEffect(
+    () => (list.current === null ? undefined : keepShare(list.current)),
+    [shown, shownJoints.value],
+  );
   const phase = shown.find(({ preset }) => preset === "phase");
   const isEmpty = shown.length === 0;
   const looks = {
-    "is-frozen": !isLive.value && !isHeld.value,
+    "is-frozen": !isLive.value && !isFrozen.value,
     "is-measured": areCursorsOn.value,
     "is-zoomed": isZoomOn.value,
   };
@@ -140,7 +157,7 @@ export function Plots({ isBasic }: { isBasic: boolean }) {
         class="plots-scroll"
         ref={list}
         aria-label={text.plots.list}
-        // biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls is reached by keyboard
+        // biome-ignore lint/a11y/noNoninteractiveTabindex: scrolling needs the keyboard
         tabIndex={0}
       >
         {isEmpty ? (
@@ -148,7 +165,7 @@ export function Plots({ isBasic }: { isBasic: boolean }) {
         ) : (
           <Stage list={list} shown={shown} isBasic={isBasic} />
         )}
-        {phase && <Plot key={phase.key} setup={phase} isBasic={isBasic} />}
+        {phase && <PlotPerJoint key={phase.key} setup={phase} isBasic={isBasic} />}
       </section>
       <MeasureTable />
     </section>

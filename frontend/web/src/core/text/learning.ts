@@ -2,7 +2,7 @@
 export const learningText = {
   learning: {
     title: "Learn",
-    lead: "Seven exercises: predict, run, explain. Your prediction is saved before the run and compared with the measured result.",
+    lead: "Exercises: predict, run, explain. Your prediction is saved before the run and compared with the measured result.",
     equations: "Equations",
     equationsHint: "Each equation also opens from its symbol on the page.",
   },
@@ -97,10 +97,12 @@ export const learningText = {
     held: (name: string) => `${name} is in control of this session.`,
     unheld: "No user is in control of this session.",
     ask: "Request control",
-    apart: "Open a private session",
-    apartHint: "A private simulated session that only you command",
     simulatedOnly:
       "This step sets plant and effects, which a bench does not allow: run it in a private simulated session.",
+    armOnly: "This step is an experiment of an arm: run it in a private session of the arm.",
+    openArm: "Open session of arm",
+    jointOnly: "This step is an experiment of a single joint, and this session is of an arm.",
+    openJoint: "Open session of single joint",
     before: "Before the run:",
     above: "The bench's buttons are at the top of the page.",
     handsEmulated: "The emulator adds the load automatically.",

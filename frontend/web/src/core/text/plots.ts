@@ -1,4 +1,4 @@
-/** Plots and numbers. */
+/** Texts of plots and numbers. */
 import { measuredText } from "./measured";
 
 const { names } = measuredText;
@@ -6,6 +6,7 @@ const { names } = measuredText;
 export const plotsText = {
   channels: ["Link", "Motor 1", "Motor 2"],
   plots: {
+    ofJoint: (joint: number, title: string) => `Joint ${joint}: ${title}`,
     heading: "Plots",
     list: "List of plots",
     below: (count: number) => (count === 1 ? "1 more plot below" : `${count} more plots below`),
@@ -156,7 +157,7 @@ export const plotsText = {
     disturbance_motor2_nm: "True disturbance, motor 2",
     lever_ratio: "Lever ratio μ",
   },
-  /** Short, for legends. */
+  /** Short labels for legends. */
   channelLabels: {
     position_reference_rad: "reference",
     position_rad: "actual",

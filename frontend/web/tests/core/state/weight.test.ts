@@ -1,26 +1,32 @@
 import "../../browserless";
 import { expect, it } from "vitest";
 import type { BenchState, SessionState } from "../../../src/core/api/types";
-import { chosenForm, formOfNext, hungWeights, nextWeight } from "../../../src/core/state/plant";
+import {
+  activeWeights,
+  chosenForm,
+  nextWeight,
+  nextWeightForm,
+} from "../../../src/core/state/plant";
 
 const real = { emulated: false } as BenchState;
 const emulated = { emulated: true } as BenchState;
 const stateOf = (bench: BenchState | null) =>
-  ({ actuator: { name: "svsa" }, bench }) as unknown as SessionState;
+  ({ actuator: { name: "svsa" }, bench, configuration: { arm: null } }) as unknown as SessionState;
 
 it("hangs a mass on a bench, whose motors do not hold the paper's torques", () => {
   const states = [null, emulated, real].map(stateOf);
-  expect(states.map(formOfNext)).toEqual(["paper", "mass", "mass"]);
+  expect(states.map(nextWeightForm)).toEqual(["paper", "mass", "mass"]);
   chosenForm.value = "paper";
-  expect(states.map(formOfNext)).toEqual(["paper", "paper", "mass"]);
+  expect(states.map(nextWeightForm)).toEqual(["paper", "paper", "mass"]);
 });
 
 it("adds the default load of another actuator, and finds it again", () => {
   const load = { kind: "constant", start_s: 5, torque_nm: [0.09, 0, 0] };
   const other = { ...load, torque_nm: [1, 0, 0] };
   const rows = [other, load].map((one, id) => ({ id, active: true, load: one }));
-  const state = { actuator: { name: "qbmove", load }, bench: null, loads: rows };
+  const configuration = { arm: null };
+  const state = { actuator: { name: "qbmove", load }, bench: null, configuration, loads: rows };
   const known = state as unknown as SessionState;
   expect(nextWeight(known)).toEqual({ kind: "constant", torque_nm: [0.09, 0, 0] });
-  expect(hungWeights(known).map(({ id }) => id)).toEqual([1]);
+  expect(activeWeights(known).map(({ id }) => id)).toEqual([1]);
 });

@@ -1,0 +1,32 @@
+/** The curves of one joint of an arm: those of its lanes, under the names of the controllers. */
+import type { Joint } from "../api/arm";
+import { jointOfLane, nameWithoutJoint } from "../state/joints";
+import type { LaneSegments } from "../state/lanes";
+import type { ChannelName } from "./channels";
+import type { PlotContent, Trace } from "./definitions";
+import { composeContent } from "./traces";
+
+/** The lanes of a joint, by their numbers from 1; all lanes without one. */
+export const lanesOfJoint = (count: number, joint: Joint | null): number[] =>
+  Array.from({ length: count }, (_, index) => index + 1).filter(
+    (lane) => joint === null || jointOfLane(lane) === joint,
+  );
+
+/** As `composeContent`, of the lanes of a joint; of all lanes for null. */
+export function composeOfJoint(
+  channels: readonly ChannelName[],
+  cast: LaneSegments,
+  joint: Joint | null,
+): PlotContent {
+  if (joint === null) return composeContent(channels, cast);
+  const lanes = lanesOfJoint(cast.length, joint);
+  const own = lanes.map((lane) =>
+    (cast[lane - 1] ?? []).map((one) => ({ ...one, name: nameWithoutJoint(one.name) })),
+  );
+  const { groups, common } = composeContent(channels, own);
+  const move = (one: Trace): Trace => ({ ...one, lane: lanes[one.lane - 1] ?? one.lane });
+  return {
+    groups: groups.map((group) => ({ ...group, traces: group.traces.map(move) })),
+    common: common.map(move),
+  };
+}

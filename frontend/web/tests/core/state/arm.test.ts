@@ -1,0 +1,73 @@
+import { afterEach, describe, expect, it } from "vitest";
+import type { SessionState } from "../../../src/core/api/types";
+import { stubBrowser } from "../../browser";
+
+stubBrowser();
+const { areJointsDifferent, chooseJoint, settingsOf, shownJoints } = await import(
+  "../../../src/core/state/arm"
+);
+const { comparisonLanes } = await import("../../../src/core/state/lanes");
+const { nameArms } = await import("../../../src/core/state/joints");
+const { isWeight, nextWeight } = await import("../../../src/core/state/plant");
+const { session } = await import("../../../src/core/state/session");
+
+const lane = (number: number, name: string) => ({ lane: number, id: number, name, segments: [] });
+const joint = (law: string, sigma: number) => ({
+  law,
+  stiffness: { kind: "constant", stiffness_nm_per_rad: sigma },
+  comparisons: [{ law: "fl" }],
+});
+const STATE = {
+  configuration: { ...joint("ndobc", 80), arm: { joint2: { ...joint("pd", 80), arm: null } } },
+  actuator: { name: "svsa" },
+  actuator2: { name: "qbmove" },
+  bench: null,
+  loads: [],
+  lanes: ["Joint 1 NDOBC", "Joint 2 PD", "Joint 1 FL", "Joint 2 FL"].map((name, index) =>
+    lane(index + 1, name),
+  ),
+} as unknown as SessionState;
+
+afterEach(() => {
+  chooseJoint("both");
+  session.value = null;
+});
+
+describe("the settings of an arm", () => {
+  it("are those of the chosen joint, with its actuator", () => {
+    expect(settingsOf(STATE).configuration.law).toBe("ndobc");
+    chooseJoint("2");
+    const { configuration, actuator } = settingsOf(STATE);
+    expect([configuration.law, actuator.name]).toEqual(["pd", "qbmove"]);
+    expect(configuration.arm).toBe(STATE.configuration.arm);
+  });
+
+  it("of both joints may differ, part by part", () => {
+    expect(areJointsDifferent(STATE, ["stiffness"])).toBe(false);
+    expect(areJointsDifferent(STATE, ["law", "gains"])).toBe(true);
+    chooseJoint("1");
+    expect(areJointsDifferent(STATE, ["law"])).toBe(false);
+  });
+
+  it("decide whose plots are shown", () => {
+    expect(shownJoints.value).toBeNull();
+    session.value = STATE;
+    expect(shownJoints.value).toEqual([1, 2]);
+    chooseJoint("2");
+    expect(shownJoints.value).toEqual([2]);
+  });
+});
+
+it("compares with the lanes of the second arm", () => {
+  expect(comparisonLanes(STATE).map(({ lane, id }) => [lane, id])).toEqual([[2, 3]]);
+});
+
+it("hangs its mass at the tip", () => {
+  expect(nextWeight(STATE)).toEqual({ kind: "tip_mass", mass_kg: 0.1 });
+  const row = { load: { kind: "tip_mass", mass_kg: 1 } } as SessionState["loads"][number];
+  expect(isWeight(STATE, row)).toBe(true);
+});
+
+it("an arm has one name, of both joints where their controllers differ", () => {
+  expect(nameArms(STATE.lanes.map(({ name }) => name))).toEqual(["NDOBC, PD", "FL"]);
+});
