@@ -1,12 +1,15 @@
 import { type GainsRequest, putGains, putLaw } from "../../core/api/client";
 import type { Configuration, SessionState } from "../../core/api/types";
 import { perform } from "../../core/state/actions";
+import { areJointsDifferent } from "../../core/state/arm";
+import { currentValueOr } from "../../core/state/conflicts";
+import { armOf } from "../../core/state/joints";
 import { comparisonLaws } from "../../core/state/lanes";
 import { lawOf, titleOf } from "../../core/state/laws";
-import { standing } from "../../core/state/meanwhile";
 import { text } from "../../core/text/en";
 import { Problem } from "../../core/widgets/form";
 import { PanelButton } from "../../core/widgets/panel";
+import { MathSymbol } from "../../core/widgets/symbol";
 import { DesignSummary } from "../design/summary";
 import { isOpen as isTuning } from "../tuning/tuning";
 import { Compare } from "./compare";
@@ -17,7 +20,7 @@ import { LawForm } from "./law";
 import { LawPicker } from "./lawpicker";
 import { isExact } from "./parameters";
 
-/** `isBasic` leaves the law and its comparison. */
+/** `isBasic` leaves out the law and its comparison. */
 export function Controller({ state, isBasic }: { state: SessionState; isBasic: boolean }) {
   const { law, gains } = state.configuration;
   const present = lawOf(law);
@@ -37,21 +40,28 @@ export function Controller({ state, isBasic }: { state: SessionState; isBasic: b
         />
       }
     >
-      <p class="hint is-about">{present?.summary}</p>
+      <p class="hint is-about">
+        <MathSymbol text={present?.summary ?? ""} />
+      </p>
       {isExact(state.configuration) && <p class="hint">{text.controller.exact}</p>}
+      {areJointsDifferent(state, ["law", "gains", "parameters"]) && (
+        <p class="hint">{text.arm.differ}</p>
+      )}
       <Problem control="controller.law" />
       {!isBasic && (
         <>
           {present && !present.takes_gains && <LawForm law={present} state={state} />}
           {(!present || present.takes_gains) && <Gains gains={gains} />}
-          <div class="row tune-open">
-            <PanelButton isOpen={isTuning} hint={text.tuning.openHint}>
-              {text.tuning.open}
-            </PanelButton>
-            <PanelButton isOpen={isIdentifying} hint={text.identification.openHint}>
-              {text.identification.open}
-            </PanelButton>
-          </div>
+          {armOf(state) === null && (
+            <div class="row tune-open">
+              <PanelButton isOpen={isTuning} hint={text.tuning.openHint}>
+                {text.tuning.open}
+              </PanelButton>
+              <PanelButton isOpen={isIdentifying} hint={text.identification.openHint}>
+                {text.identification.open}
+              </PanelButton>
+            </div>
+          )}
         </>
       )}
       <Compare state={state} />
@@ -72,7 +82,7 @@ function Coefficients({ which, symbol, gains }: CoefficientsProps) {
   const values = gains[which];
   const send = (changed: number, value: number) => {
     const request: GainsRequest = {
-      [which]: standing("gains", gains)[which].map((held, index) =>
+      [which]: currentValueOr("gains", gains)[which].map((held, index) =>
         index === changed ? value : held,
       ),
     };

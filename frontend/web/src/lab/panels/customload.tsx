@@ -1,9 +1,10 @@
 import { useState } from "preact/hooks";
 import { addLoad } from "../../core/api/client";
 import type { Load } from "../../core/api/types";
-import { shownAs } from "../../core/quantities";
+import { quantityProps } from "../../core/quantities";
 import { perform } from "../../core/state/actions";
-import { firstOf, kinds, readForm, shownAsDescribed } from "../../core/state/kinds";
+import { isArm, settingsJoint } from "../../core/state/arm";
+import { initialValues, kinds, parseForm, quantityOfParameter } from "../../core/state/kinds";
 import { text } from "../../core/text/en";
 import { Choice, NumberBox, Problem } from "../../core/widgets/form";
 import { EnduranceNote } from "../../hardware/endurance";
@@ -15,7 +16,7 @@ const CHANNELS = (["0", "1", "2"] as const).map((value) => ({
   label: text.channels[Number(value)] as string,
 }));
 
-/** A torque of the user's own on one of the three channels, of every kind that has a form. */
+/** A user-defined torque on one of the three channels, of every kind that has a form. */
 export function CustomLoad({ isShown }: { isShown: boolean }) {
   const [kind, setKind] = useState("constant");
   const [channel, setChannel] = useState<Channel>("0");
@@ -24,8 +25,8 @@ export function CustomLoad({ isShown }: { isShown: boolean }) {
 
   const offered = kinds.value?.loads.filter(({ form }) => form !== null) ?? [];
   const form = offered.find((one) => one.kind === kind)?.form ?? [];
-  const values = { ...firstOf(form), ...typed };
-  const details = readForm(form, values);
+  const values = { ...initialValues(form), ...typed };
+  const details = parseForm(form, values);
   const torque_nm = CHANNELS.map(({ value }) => (value === channel ? Number(torque) : 0));
   const draft = { kind, torque_nm, ...details } as Load;
   const isNumber = torque !== "" && Number.isFinite(Number(torque)) && details !== null;
@@ -49,15 +50,16 @@ export function CustomLoad({ isShown }: { isShown: boolean }) {
         value={channel}
         onChoose={setChannel}
       />
-      <NumberBox {...shownAs("torque_nm")} value={torque} onInput={setTorque} />
+      <NumberBox {...quantityProps("torque_nm")} value={torque} onInput={setTorque} />
       {form.map(({ parameter }) => (
         <NumberBox
           key={`${kind}.${parameter.name}`}
-          {...shownAsDescribed(parameter)}
+          {...quantityOfParameter(parameter)}
           value={values[parameter.name] ?? ""}
           onInput={(value) => setTyped({ ...typed, [parameter.name]: value })}
         />
       ))}
+      {isArm.value && <p class="hint">{text.arm.torqueOn(settingsJoint.value)}</p>}
       <EnduranceNote load={isShown && isNumber ? draft : null} />
       <button type="submit" class="button">
         {text.load.apply}

@@ -1,13 +1,13 @@
 import { useState } from "preact/hooks";
 import { removeAllLoads, removeLoad } from "../../core/api/client";
-import type { SessionState } from "../../core/api/types";
+import type { LoadRow, SessionState } from "../../core/api/types";
 import { perform } from "../../core/state/actions";
 import {
   chosenForm,
-  formOfNext,
+  currentLoads,
   isRealBench,
   isWeight,
-  presentLoads,
+  nextWeightForm,
   type WeightForm,
 } from "../../core/state/plant";
 import { text } from "../../core/text/en";
@@ -15,23 +15,28 @@ import { Choice, Problem } from "../../core/widgets/form";
 import { CustomLoad } from "./customload";
 import { Group } from "./group";
 
-const FORMS: readonly { value: Exclude<WeightForm, "torque">; label: string }[] = [
+const FORMS: readonly { value: Exclude<WeightForm, "torque" | "tip">; label: string }[] = [
   { value: "paper", label: text.load.paper },
   { value: "mass", label: text.load.mass },
 ];
 
-/** Whether a load acts or comes that is not the button's. */
+/** A push at the tip and a wall have controls of their own. */
+const hasOwnControl = ({ load }: LoadRow): boolean =>
+  load.kind === "tip_push" || load.kind === "wall";
+
+/** Whether a load acts or is scheduled that the button does not control. */
 export const hasOtherLoads = (state: SessionState): boolean =>
-  !presentLoads(state).every((row) => row.active && isWeight(state, row));
+  !currentLoads(state).every((row) => hasOwnControl(row) || (row.active && isWeight(state, row)));
 
 function LoadRows({ state }: { state: SessionState }) {
-  const rows = presentLoads(state);
+  const rows = currentLoads(state);
   if (!hasOtherLoads(state)) return null;
   return (
     <ul class="load-rows">
       {rows.map((row) => (
         <li key={row.id}>
           <span>
+            {row.joint !== null && `${text.arm.onJoint(row.joint)}: `}
             {row.label}
             {!row.active && ` · ${text.load.comesAt(row.start_s)}`}
           </span>
@@ -60,10 +65,10 @@ function LoadRows({ state }: { state: SessionState }) {
   );
 }
 
-/** What 3 kg are in a simulation and on the emulator. */
+/** Form of the 3 kg in a simulation and on the emulator. */
 function FormPicker({ state }: { state: SessionState }) {
-  const form = formOfNext(state);
-  if (form === "torque") return null;
+  const form = nextWeightForm(state);
+  if (form === "torque" || form === "tip") return null;
   return (
     <Choice
       label={text.load.form}
@@ -80,6 +85,7 @@ const words = {
   paper: text.load.paperDoes,
   mass: text.load.massDoes,
   torque: text.load.torqueDoes,
+  tip: text.arm.does,
 } as const;
 
 export function Loads({ state }: { state: SessionState }) {
@@ -93,7 +99,7 @@ export function Loads({ state }: { state: SessionState }) {
   }
   return (
     <Group title={text.load.title} topic="load" aside={<FormPicker state={state} />}>
-      <p class="hint is-about">{words[formOfNext(state)]}</p>
+      <p class="hint is-about">{words[nextWeightForm(state)]}</p>
       <LoadRows state={state} />
       <Problem control="load.rows" />
       <details class="more" onToggle={(event) => show(event.currentTarget.open)}>

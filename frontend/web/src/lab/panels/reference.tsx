@@ -3,6 +3,7 @@ import { useState } from "preact/hooks";
 import type { Follows } from "../../core/api/design";
 import type { PositionReference, SessionState, StiffnessReference } from "../../core/api/types";
 import { perform } from "../../core/state/actions";
+import { areJointsDifferent, settings } from "../../core/state/arm";
 import { text } from "../../core/text/en";
 import { Choice, type Option, Problem } from "../../core/widgets/form";
 import { Group } from "./group";
@@ -10,7 +11,7 @@ import { Shaped, titleOf } from "./shaped";
 
 type Kind = "sine" | "constant" | "other";
 
-/** A sine and a constant have fields; every other reference has a beginning and an end. */
+/** A sine and a constant have fields; every other reference has a start and an end. */
 const kindOf = ({ kind }: PositionReference | StiffnessReference): Kind =>
   kind === "sine" || kind === "constant" ? kind : "other";
 
@@ -18,21 +19,22 @@ const nameOf = (kinds: readonly Option<Kind>[], kind: Kind): string =>
   kinds.find(({ value }) => value === kind)?.label ?? "";
 
 interface ReferenceGroupProps {
-  /** The name of its controls, the title and the equation. */
+  /** Name of its controls, of its title and of its equation. */
   topic: "motion" | "stiffness";
   follows: Follows;
   reference: PositionReference | StiffnessReference;
   kinds: readonly Option<Kind>[];
-  /** Sends the reference of this kind. */
+  /** Send the reference of this kind. */
   onChoose: (kind: Exclude<Kind, "other">) => Promise<SessionState>;
   /** The fields of a sine or a constant. */
   children: ComponentChildren;
 }
 
-/** What the session follows: its kind, its fields, or how to shape one with an end. */
+/** The reference of the session: its kind, its fields, or the form of a finite one. */
 export function ReferenceGroup(props: ReferenceGroupProps) {
   const { topic, follows, reference, kinds, onChoose, children } = props;
   const { title, kind } = text[topic];
+  const configuration = settings.value?.configuration;
   const [isOther, setOther] = useState(false);
   const shown = isOther ? "other" : kindOf(reference);
   const choose = (next: Kind) => {
@@ -46,10 +48,17 @@ export function ReferenceGroup(props: ReferenceGroupProps) {
       aside={<Choice label={kind} options={kinds} value={shown} onChoose={choose} />}
     >
       <Problem control={`${topic}.kind`} />
+      {settings.value && areJointsDifferent(settings.value, [follows]) && (
+        <p class="hint">{text.arm.differ}</p>
+      )}
       {shown !== kindOf(reference) && (
         <p class="hint">{text.references.notApplied(nameOf(kinds, kindOf(reference)))}</p>
       )}
-      {shown === "other" ? <Shaped follows={follows} held={reference.kind} /> : children}
+      {shown === "other" && configuration !== undefined ? (
+        <Shaped follows={follows} held={reference.kind} configuration={configuration} />
+      ) : (
+        children
+      )}
       {kindOf(reference) === "other" && (
         <p class="hint">
           {text.references.following(titleOf(follows, reference.kind), reference.transition_s)}

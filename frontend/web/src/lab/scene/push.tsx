@@ -1,11 +1,11 @@
 import { signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
+import { linkPush } from "../../core/state/push";
 import { samples } from "../../core/state/session";
 import { text } from "../../core/text/en";
 import { formatNumber } from "../../core/units";
 import { Problem } from "../../core/widgets/form";
 import { closeOnEscape } from "../../core/widgets/panel";
-import { heldTorque, keepPush } from "./hold";
 import { angleSeen, pullOf } from "./ray";
 import { cameraNow } from "./viewer";
 
@@ -13,20 +13,15 @@ export const isPushing = signal(false);
 
 const KEY_NM = 1;
 
-interface Grip {
+interface GrabPoint {
   x: number;
   y: number;
-  /** Angle of the pointer against the link when it was taken. */
-  taken: number;
+  /** Angle between pointer and link when it was grabbed. */
+  angleOffset: number;
 }
 
 const linkAngle = () => samples.ring.newest("position_rad");
-const pull = signal<{ from: Grip; x: number; y: number; torque: number } | null>(null);
-
-function holdAt(torque: number): void {
-  heldTorque.value = torque;
-  void keepPush();
-}
+const pull = signal<{ from: GrabPoint; x: number; y: number; torque: number } | null>(null);
 
 function pointerAngle(layer: HTMLElement, event: { clientX: number; clientY: number }) {
   const box = layer.getBoundingClientRect();
@@ -56,47 +51,47 @@ const torqueOf = ({ key }: KeyboardEvent): number | undefined =>
 
 function release(): void {
   pull.value = null;
-  heldTorque.value = null;
+  linkPush.release();
 }
 
-/** Lies over the 3D view while the link may be taken: a drag is a spring that pulls at it. */
+/** An overlay on the 3D view while the link can be grabbed: a drag acts as a spring on the link. */
 export function PushLayer() {
   const layer = useRef<HTMLButtonElement>(null);
   useEffect(() => {
     layer.current?.focus({ preventScroll: true });
-    const forget = closeOnEscape(() => {
+    const removeEscape = closeOnEscape(() => {
       isPushing.value = false;
     });
     return () => {
-      forget();
+      removeEscape();
       release();
     };
   }, []);
-  const follow = (event: PointerEvent, from: Grip) => {
+  const updatePull = (event: PointerEvent, from: GrabPoint) => {
     const host = layer.current as HTMLElement;
     const angle = pointerAngle(host, event);
     if (angle === null) return;
     const box = host.getBoundingClientRect();
-    const torque = pullOf(angle, linkAngle(), from.taken);
+    const torque = pullOf(angle, linkAngle(), from.angleOffset);
     pull.value = { from, x: event.clientX - box.left, y: event.clientY - box.top, torque };
-    holdAt(torque);
+    linkPush.hold([torque]);
   };
-  const take = (event: PointerEvent) => {
+  const startPull = (event: PointerEvent) => {
     const host = layer.current as HTMLElement;
     const angle = pointerAngle(host, event);
     if (angle === null) return;
     host.setPointerCapture(event.pointerId);
     const box = host.getBoundingClientRect();
-    follow(event, {
+    updatePull(event, {
       x: event.clientX - box.left,
       y: event.clientY - box.top,
-      taken: angle - linkAngle(),
+      angleOffset: angle - linkAngle(),
     });
   };
-  const answer = (event: KeyboardEvent) => {
+  const pressKey = (event: KeyboardEvent) => {
     const torque = torqueOf(event);
     if (torque === undefined) return;
-    if (!event.repeat) holdAt(torque);
+    if (!event.repeat) linkPush.hold([torque]);
     event.preventDefault();
     event.stopPropagation();
   };
@@ -107,14 +102,14 @@ export function PushLayer() {
         type="button"
         class="push-layer"
         aria-label={text.scene.pushLayer}
-        onPointerDown={take}
+        onPointerDown={startPull}
         onPointerMove={(event) => {
           const from = pull.peek()?.from;
-          if (from) follow(event, from);
+          if (from) updatePull(event, from);
         }}
         onPointerUp={release}
         onPointerCancel={release}
-        onKeyDown={answer}
+        onKeyDown={pressKey}
         onKeyUp={(event) => {
           if (torqueOf(event) !== undefined) release();
         }}

@@ -1,0 +1,159 @@
+/** Draws the samples of an arm into the picture of its plane. */
+
+import {
+  axesOf,
+  ellipseOf,
+  type Lengths,
+  type Point,
+  pathOf,
+  placeLinks,
+  reachOf,
+  type StiffnessEllipse,
+} from "../../core/armgeometry";
+import { shownRing, shownSpan } from "../../core/plots/span";
+import type { SampleRing } from "../../core/stream/ring";
+import { text } from "../../core/text/en";
+import { formatNumber } from "../../core/units";
+
+const words = text.arm;
+/** Half of the width of the picture, in its units. */
+export const HALF = 200;
+/** Space around the largest distance of the tip. */
+export const MARGIN = 1.08;
+const KILO = 1000;
+const TIP_S = 3;
+const REFERENCE_S = 8;
+const PATH_POINTS = 160;
+const PATH_MS = 60;
+
+interface Arm {
+  lengths: Lengths;
+  /** Greatest stiffness of the actuators, N·m/rad. */
+  most: number;
+}
+
+type Channel = "position_rad" | "position_reference_rad" | "stiffness_nm_per_rad";
+
+/** In kN/m if the least is not a small number of them. */
+function describeExtremes({ least, greatest }: StiffnessEllipse): string {
+  const [unit, factor] =
+    least < KILO / 10 ? ([words.newtons, 1] as const) : [words.kilonewtons, KILO];
+  const [low, high] = [least, greatest].map((k) => formatNumber(k / factor, 3));
+  return words.extremes(`${low}`, `${high}`, unit);
+}
+
+/** Both joints of an arm (0: the own, 1: the comparison) at a sample. */
+const readJoints = (
+  ring: SampleRing,
+  channel: Channel,
+  index: number,
+  arm = 0,
+): [number, number] => [
+  ring.valueAt(channel, index, 2 * arm + 1),
+  ring.valueAt(channel, index, 2 * arm + 2),
+];
+
+export class ArmPicture {
+  /** The tip at the newest sample; null before the first. */
+  tip: Point | null = null;
+  /** The pointer that pulls it. */
+  pointer: Point | null = null;
+  readonly #scale: number;
+  #pathAt = 0;
+
+  constructor(
+    private readonly svg: SVGSVGElement,
+    private readonly readout: HTMLElement,
+    private readonly arm: Arm,
+  ) {
+    this.#scale = HALF / (MARGIN * reachOf(arm.lengths));
+  }
+
+  /** The newest sample that the plots show. */
+  draw(): void {
+    const ring = shownRing();
+    const newest = ring.lowerBound(shownSpan().to + 1e-9) - 1;
+    for (const part of this.svg.querySelectorAll<SVGPathElement>("[data-links]")) {
+      this.#drawLinks(part, readJoints(ring, "position_rad", newest, Number(part.dataset.links)));
+    }
+    const q = readJoints(ring, "position_rad", newest);
+    if (q.every(Number.isFinite)) {
+      this.#drawTip(q);
+      this.#drawEllipse(q, readJoints(ring, "stiffness_nm_per_rad", newest));
+    }
+    if (performance.now() - this.#pathAt < PATH_MS) return;
+    this.#pathAt = performance.now();
+    for (const part of this.svg.querySelectorAll<SVGPathElement>("[data-path]")) {
+      const { path } = part.dataset;
+      const points =
+        path === "reference"
+          ? this.#listTips(ring, newest, "position_reference_rad", REFERENCE_S, 0)
+          : this.#listTips(ring, newest, "position_rad", TIP_S, Number(path));
+      part.setAttribute("d", pathOf(points, this.#scale));
+    }
+  }
+
+  #at({ x, y }: Point): string {
+    return `${(this.#scale * x).toFixed(1)} ${(-this.#scale * y).toFixed(1)}`;
+  }
+
+  #find = (name: string) => this.svg.querySelector<SVGGraphicsElement>(`[data-${name}]`);
+
+  #move(name: string, point: Point): void {
+    this.#find(name)?.setAttribute("transform", `translate(${this.#at(point)})`);
+  }
+
+  #drawLinks(part: SVGPathElement, q: readonly [number, number]): void {
+    const isKnown = q.every(Number.isFinite);
+    part.style.visibility = isKnown ? "visible" : "hidden";
+    if (!isKnown) return;
+    const { elbow, tip } = placeLinks(this.arm.lengths, ...q);
+    part.setAttribute("d", `M0 0L${this.#at(elbow)}L${this.#at(tip)}`);
+  }
+
+  #drawTip(q: readonly [number, number]): void {
+    const { elbow, tip } = placeLinks(this.arm.lengths, ...q);
+    this.tip = tip;
+    this.#move("elbow", elbow);
+    this.#move("tip", tip);
+    this.#move("mass", tip);
+    const band = this.pointer === null ? "" : `M${this.#at(tip)}L${this.#at(this.pointer)}`;
+    this.#find("band")?.setAttribute("d", band);
+  }
+
+  #drawEllipse(q: readonly [number, number], stiffness: readonly [number, number]): void {
+    const { lengths, most } = this.arm;
+    const found = ellipseOf(lengths, q, stiffness);
+    const part = this.#find("ellipse");
+    if (part === null || this.tip === null) return;
+    part.style.visibility = found === null ? "hidden" : "visible";
+    this.readout.textContent = found === null ? words.straight : describeExtremes(found);
+    if (found === null) return;
+    const [long, short] = axesOf(lengths, found, most);
+    const degrees = (-found.angle * 180) / Math.PI;
+    part.setAttribute("rx", (this.#scale * long).toFixed(1));
+    part.setAttribute("ry", (this.#scale * short).toFixed(1));
+    part.setAttribute(
+      "transform",
+      `translate(${this.#at(this.tip)}) rotate(${degrees.toFixed(1)})`,
+    );
+  }
+
+  /** The path of a tip up to a sample; null where samples are missing. */
+  #listTips(
+    ring: SampleRing,
+    newest: number,
+    channel: Channel,
+    lengthS: number,
+    arm: number,
+  ): (Point | null)[] {
+    const first = Math.max(0, ring.lowerBound(ring.timeAt(newest) - lengthS));
+    const stride = Math.max(1, Math.ceil((newest - first) / PATH_POINTS));
+    const points: (Point | null)[] = [];
+    for (let index = newest; index >= first; index -= stride) {
+      const q = readJoints(ring, channel, index, arm);
+      points.push(q.every(Number.isFinite) ? placeLinks(this.arm.lengths, ...q).tip : null);
+    }
+    return points;
+  }
+}

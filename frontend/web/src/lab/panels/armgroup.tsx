@@ -1,0 +1,178 @@
+/** The joint of settings and plots, and the settings of an arm as a whole. */
+import { useId, useRef } from "preact/hooks";
+import type { ArmPatch, ArmSetup } from "../../core/api/arm";
+import { addLoad, patchArm, removeLoad } from "../../core/api/client";
+import type { SessionState } from "../../core/api/types";
+import { placeLinks } from "../../core/armgeometry";
+import { perform } from "../../core/state/actions";
+import { chooseJoint, type JointChoice, jointChoice } from "../../core/state/arm";
+import { armOf } from "../../core/state/joints";
+import { tipMassKg } from "../../core/state/plant";
+import { samples } from "../../core/state/session";
+import { text } from "../../core/text/en";
+import { formatNumber } from "../../core/units";
+import { Choice, Problem } from "../../core/widgets/form";
+import { Switch } from "../../core/widgets/switch";
+import { Field } from "./field";
+import { Group } from "./group";
+
+const words = text.arm;
+const JOINTS = (Object.keys(words.joints) as JointChoice[])
+  .sort((one, other) => Number(one !== "both") - Number(other !== "both"))
+  .map((value) => ({ value, label: words.joints[value] }));
+
+/** The estimates of the mass at the tip, of both arms. */
+function Estimate({ state }: { state: SessionState }) {
+  const { payload_kg: masses } = state;
+  if (!masses) return null;
+  return (
+    <p class="hint arm-estimate">
+      {words.estimate}{" "}
+      {masses.map((mass, index) => (
+        <span key={index === 0 ? "own" : "other"}>
+          <strong class="number">{formatNumber(mass, 3, 3)}</strong>{" "}
+          {index === 0 ? words.kilograms : words.ofComparison}{" "}
+        </span>
+      ))}
+    </p>
+  );
+}
+
+const WALL = {
+  kind: "wall",
+  normal_rad: Math.PI,
+  stiffness_n_per_m: 500,
+  damping_ns_per_m: 10,
+} as const;
+/** Distance of the wall from joint 1 relative to the rightmost point of the tip's reference. */
+const WALL_SHARE = 0.8;
+const SAMPLE_STEP = 10;
+
+/** Rightmost point of the tip's reference in the stored samples, m. */
+function rightmostReference({ length1_m, length2_m }: ArmSetup["links"]): number {
+  const { ring } = samples;
+  let most = 0;
+  for (let index = 0; index < ring.length; index += SAMPLE_STEP) {
+    const read = (lane: number) => ring.valueAt("position_reference_rad", index, lane);
+    const { tip } = placeLinks({ length1: length1_m, length2: length2_m }, read(1), read(2));
+    if (tip.x > most) most = tip.x;
+  }
+  return most > 0 ? most : length1_m + length2_m;
+}
+
+function Wall({ state }: { state: SessionState }) {
+  const arm = armOf(state);
+  const walls = state.loads.filter(({ active, load }) => active && load.kind === "wall");
+  const [wall] = walls;
+  const toggle = () =>
+    perform("arm.wall", async () => {
+      if (wall !== undefined || arm === null) return removeLoad(wall?.id ?? 0);
+      const at = WALL_SHARE * rightmostReference(arm.links);
+      return addLoad({ ...WALL, distance_m: -at });
+    });
+  return (
+    <>
+      <Switch
+        label={words.wall}
+        hint={words.wallHint}
+        isOn={wall !== undefined}
+        onToggle={toggle}
+      />
+      <Problem control="arm.wall" />
+    </>
+  );
+}
+
+/** An ellipse in front of the arm, whose points it reaches with a bent elbow. */
+function buildEllipse({ length1_m, length2_m }: ArmSetup["links"]): NonNullable<ArmPatch["tip"]> {
+  const reach = length1_m + length2_m;
+  return {
+    kind: "ellipse",
+    elbow: "positive",
+    center_m: [0.42 * reach, -0.58 * reach],
+    radii_m: [0.17 * reach, 0.08 * reach],
+    frequency_hz: 0.25,
+  };
+}
+
+const REFERENCES = (["joints", "tip"] as const).map((value) => ({
+  value,
+  label: words.references[value],
+}));
+
+/** What follows a reference of its own: each joint, or the tip. */
+function ReferenceChoice({ arm }: { arm: ArmSetup }) {
+  const id = useId();
+  const choose = (value: "joints" | "tip") =>
+    perform("arm.reference", () =>
+      patchArm({ tip: value === "tip" ? buildEllipse(arm.links) : null }),
+    );
+  return (
+    <>
+      <div class="spread">
+        <span>{words.reference}</span>
+        <Choice
+          label={words.reference}
+          options={REFERENCES}
+          value={arm.tip === null ? "joints" : "tip"}
+          describedBy={id}
+          onChoose={choose}
+        />
+      </div>
+      <p class="hint" id={id}>
+        {words.referenceHint}
+      </p>
+      <Problem control="arm.reference" />
+    </>
+  );
+}
+
+export function ArmGroup({ state, isBasic }: { state: SessionState; isBasic: boolean }) {
+  const arm = armOf(state);
+  const last = useRef<NonNullable<ArmPatch["adaptation"]> | null>(null);
+  if (arm === null) return null;
+  if (arm.adaptation) last.current = arm.adaptation;
+  const send = (patch: ArmPatch) => perform("arm", () => patchArm(patch));
+  const choice = jointChoice.value;
+  return (
+    <Group
+      title={words.title}
+      aside={<Choice label={words.joint} options={JOINTS} value={choice} onChoose={chooseJoint} />}
+    >
+      {!isBasic && (
+        <p class="hint is-about">{choice === "both" ? words.both : words.one(choice)}</p>
+      )}
+      <div class="arm-switches">
+        <Switch
+          label={words.feedforward}
+          hint={words.feedforwardHint}
+          isOn={arm.feedforward}
+          onToggle={() => send({ feedforward: !arm.feedforward })}
+        />
+        <Switch
+          label={words.adaptation}
+          hint={words.adaptationHint}
+          isOn={arm.adaptation !== null}
+          onToggle={() =>
+            send({ adaptation: arm.adaptation === null ? (last.current ?? {}) : null } as ArmPatch)
+          }
+        />
+        <Wall state={state} />
+      </div>
+      <Problem control="arm" />
+      <Estimate state={state} />
+      {!isBasic && <ReferenceChoice arm={arm} />}
+      <Field
+        name="arm.mass"
+        label={words.mass}
+        unit="kg"
+        value={tipMassKg.value}
+        range={{ min: 0.05, max: 2, logarithmic: true }}
+        send={async (mass) => {
+          tipMassKg.value = mass;
+          return state;
+        }}
+      />
+    </Group>
+  );
+}
