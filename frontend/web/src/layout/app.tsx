@@ -1,17 +1,21 @@
+import type { SessionState } from "../core/api/types";
 import { Plots } from "../core/plots/plots";
-import { comings } from "../core/state/control";
+import { isArm } from "../core/state/arm";
+import { loginCount } from "../core/state/control";
 import { phase, session } from "../core/state/session";
 import { text } from "../core/text/en";
 import { BenchStrip } from "../hardware/strip";
+import { TipPlane } from "../lab/arm/plane";
 import { DesignPanel } from "../lab/design/panel";
 import { HelpSheet } from "../lab/keys/help";
 import { Controls } from "../lab/panels/controls";
 import { IdentificationPanel } from "../lab/panels/identification";
 import { LoadButton } from "../lab/panels/loadbutton";
+import { hasWebGl } from "../lab/scene/schematic";
 import { CallsDrawer } from "../lab/script/drawer";
 import { TunePanel } from "../lab/tuning/panel";
 import { PrivateBanner } from "../runs/list/origin";
-import { isOfLab, isOfRuns, place } from "../runs/list/place";
+import { isLabShown, isRunsPlace, place } from "../runs/list/place";
 import { Runs } from "../runs/list/runs";
 import { ClassPanel } from "../teaching/classroom/panel";
 import { hasFreeSettings } from "../teaching/course/lesson";
@@ -21,7 +25,7 @@ import { Lesson } from "../teaching/course/view";
 import { Banners } from "./banners";
 import { isBasic } from "./basic";
 import { Comparison } from "./comparison";
-import { FetchedPage } from "./fetched";
+import { LazyPage } from "./lazypage";
 import { Login } from "./login";
 import { EvaluationTabs } from "./pages";
 import { Readout } from "./readout";
@@ -30,11 +34,22 @@ import { StatusBar } from "./statusbar";
 import { TopBar } from "./topbar";
 import { View } from "./view";
 
-/** The page that the address names. */
+/** The 3D view; of an arm also its plane, alone without WebGL. */
+function Views({ state, isBasic }: { state: SessionState; isBasic: boolean }) {
+  if (!isArm.value) return <View isBasic={isBasic} />;
+  return (
+    <div class="arm-views">
+      {hasWebGl && <View isBasic={isBasic} />}
+      <TipPlane state={state} {...(hasWebGl ? {} : { note: text.arm.noWebGl })} />
+    </div>
+  );
+}
+
+/** The page of the present address. */
 function Here() {
   const state = session.value;
   const at = place.value;
-  return isOfRuns(at) ? (
+  return isRunsPlace(at) ? (
     <Runs at={at} />
   ) : at.kind === "actuators" ||
     at.kind === "ranking" ||
@@ -42,14 +57,14 @@ function Here() {
     at.kind === "grades" ||
     at.kind === "studies" ||
     at.kind === "falsifier" ? (
-    <FetchedPage name={at.kind} />
+    <LazyPage name={at.kind} />
   ) : at.kind === "learn" && at.exercise === "" ? (
     <LearnPage />
   ) : state === null ? (
     <main class="waiting-page">{phase.value !== "ended" && text.connection.waiting}</main>
   ) : (
     <main class={at.kind === "learn" ? "lab has-lesson" : isBasic.value ? "lab is-basic" : "lab"}>
-      <View isBasic={isBasic.value} />
+      <Views state={state} isBasic={isBasic.value} />
       {state.lanes.length > 1 ? <Comparison state={state} /> : <Readout state={state} />}
       <LoadButton state={state} />
       <Plots isBasic={isBasic.value} />
@@ -71,7 +86,7 @@ export function App() {
   const at = place.value;
   return (
     <>
-      {isOfLab(at) && state !== null && (
+      {isLabShown(at) && state !== null && (
         <>
           <a class="skip" href="#plots">
             {text.skip}
@@ -85,12 +100,12 @@ export function App() {
       )}
       <TopBar />
       <EvaluationTabs />
-      {(isOfLab(at) || at.kind === "list") && state?.bench && <BenchStrip bench={state.bench} />}
+      {(isLabShown(at) || at.kind === "list") && state?.bench && <BenchStrip bench={state.bench} />}
       <PrivateBanner />
       <Banners />
       <HelpSheet />
       {phase.value === "locked" && <Login />}
-      <Here key={comings.value} />
+      <Here key={loginCount.value} />
       <DesignPanel />
       <TunePanel />
       <IdentificationPanel />

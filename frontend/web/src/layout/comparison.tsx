@@ -2,6 +2,8 @@ import { useCallback } from "preact/hooks";
 import type { LaneRow, SessionState } from "../core/api/types";
 import { lineStyleOfLane } from "../core/plots/linestyles";
 import { type MetricsColumn, MetricsTable } from "../core/plots/metricstable";
+import { isArm } from "../core/state/arm";
+import { LANES_OF_ARM } from "../core/state/joints";
 import { isLive, samples } from "../core/state/session";
 import { text } from "../core/text/en";
 import { formatNumber, toDegrees } from "../core/units";
@@ -21,12 +23,18 @@ function CurrentError({ lane }: { lane: number }) {
 }
 
 const lookOf = ({ segments, lane }: LaneRow) =>
-  lineStyleOfLane(segments.at(-1)?.line_style ?? 0, lane === 1);
+  lineStyleOfLane(
+    segments.at(-1)?.line_style ?? 0,
+    lane === 1 || (isArm.value && lane <= LANES_OF_ARM),
+  );
 
 const degrees = (rad: number | undefined) =>
   formatNumber(rad === undefined ? null : toDegrees(rad), 3, 3);
 
-/** The lanes in numbers of one window, since the last change; the best is marked where all compete. */
+/**
+ * Metrics of the lanes in one window, since the last change; the best is marked if all lanes are
+ * comparable.
+ */
 export function Comparison({ state }: { state: SessionState }) {
   const { lanes, window } = state;
   const metrics = lanes.map((lane) => lane.in_window);

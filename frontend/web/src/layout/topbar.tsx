@@ -1,10 +1,12 @@
+import type { SessionState } from "../core/api/types";
 import { SVSA } from "../core/state/actuators";
+import { isArm } from "../core/state/arm";
 import { theme, toggleTheme } from "../core/state/preferences";
 import { isLive, session } from "../core/state/session";
 import { text } from "../core/text/en";
 import { HelpButton } from "../lab/keys/help";
 import { CallsButton } from "../lab/script/drawer";
-import { isOfLab, place } from "../runs/list/place";
+import { isLabShown, place } from "../runs/list/place";
 import { ClassButton } from "../teaching/classroom/panel";
 import { AllControlsSwitch, isBasic } from "./basic";
 import { PagesMenu, Tabs } from "./pages";
@@ -31,24 +33,26 @@ function ThemeButton() {
   );
 }
 
+function subtitleOf(state: SessionState): string {
+  if (isArm.value) return text.arm.name;
+  return state.actuator.name === SVSA ? text.subtitle : state.actuator.title;
+}
+
 export function TopBar() {
   const state = session.value;
-  const isLab = isOfLab(place.value);
-  // An exercise sets the session up and records it; a figure of the paper would undo that.
+  const isLab = isLabShown(place.value);
+  // An exercise sets the session up and records it; a figure of the paper would overwrite that.
   const isLesson = place.value.kind === "learn";
   return (
     <header class={isLab && !isBasic.value ? "topbar is-full" : "topbar"}>
       <h1>
-        {text.name}{" "}
-        <small>
-          {isLab && state && state.actuator.name !== SVSA ? state.actuator.title : text.subtitle}
-        </small>
+        {text.name} <small>{isLab && state ? subtitleOf(state) : text.subtitle}</small>
       </h1>
       <Tabs />
       {isLab && state && (
         <div class="row topbar-controls">
           <fieldset disabled={!isLive.value} aria-label={text.session}>
-            {!isLesson && !isBasic.value && state.actuator.name === SVSA && (
+            {!isLesson && !isBasic.value && state.actuator.name === SVSA && !isArm.value && (
               <FigurePicker state={state} />
             )}
             {state.bench === null && <Transport state={state} isBasic={isBasic.value} />}
