@@ -1,20 +1,21 @@
-/** The run that a run or a private session continues. */
+/** The run from which a run or a private session branched. */
 
 import { useEffect, useState } from "preact/hooks";
 import { isPrivate } from "../../core/api/request";
 import { readRun } from "../../core/api/runs";
 import type { RunDetails, RunSummary } from "../../core/api/types";
 import { SVSA } from "../../core/state/actuators";
+import { isArm } from "../../core/state/arm";
 import { phase, session } from "../../core/state/session";
 import { text } from "../../core/text/en";
-import { Marked } from "./marked";
+import { Highlighted } from "./highlight";
 import { PlaceLink } from "./place";
 
 type Origin = NonNullable<RunSummary["branch_of"]>;
 
 const words = text.runs;
 
-/** The run that a branch goes on from, and the moment at which it left it. */
+/** The run from which a branch started, and the time of the branch. */
 export function OriginLink({ origin }: { origin: Origin }) {
   const { run_id: run, title, time_s: timeS } = origin;
   const name = title ?? run;
@@ -27,10 +28,10 @@ export function OriginLink({ origin }: { origin: Origin }) {
       </svg>
       <span class="visually-hidden">{words.branch} </span>
       {title === null ? (
-        <Marked>{name}</Marked>
+        <Highlighted>{name}</Highlighted>
       ) : (
         <PlaceLink to={{ kind: "run", run, timeS: timeS ?? 0 }}>
-          <Marked>{name}</Marked>
+          <Highlighted>{name}</Highlighted>
         </PlaceLink>
       )}{" "}
       {at}
@@ -38,7 +39,7 @@ export function OriginLink({ origin }: { origin: Origin }) {
   );
 }
 
-/** The recorded run that the page's session goes on from, as far as it can still be read. */
+/** The recorded run from which the page's session branched, if it can still be read. */
 function SessionOrigin({ runId, tick }: { runId: string; tick: number }) {
   const [run, setRun] = useState<RunDetails | null>(null);
   useEffect(() => {
@@ -62,12 +63,13 @@ function SessionOrigin({ runId, tick }: { runId: string; tick: number }) {
   );
 }
 
-/** Says that the page shows a private session, or that it has ended, and leads back. */
+/** Reports that the page shows a private session, or that it has ended, with a link back. */
 export function PrivateBanner() {
   if (!isPrivate) return null;
   const branch = session.value?.branch_of;
   const actuator = session.value?.actuator;
-  const simulated = actuator === undefined || actuator.name === SVSA ? "" : actuator.title;
+  const other = actuator === undefined || actuator.name === SVSA ? "" : actuator.title;
+  const simulated = isArm.value ? text.arm.name : other;
   const note = session.value?.note;
   const isEnded = phase.value === "ended";
   return (

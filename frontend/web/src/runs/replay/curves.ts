@@ -1,17 +1,18 @@
-/** Which channels of a run are drawn where: the live page's plots, a choice a quantity. */
+/** Channels of a run by plot: the live page's plots, with one selection per quantity. */
+import type { Joint } from "../../core/api/arm";
 import type { StreamedName } from "../../core/api/types";
 import { CHANNELS, type ChannelName, PRESETS, spanOf, unitOf } from "../../core/plots/channels";
 import { ownerOf, type Trace } from "../../core/plots/definitions";
-import { composeContent } from "../../core/plots/traces";
+import { composeOfJoint } from "../../core/plots/joints";
 import { text } from "../../core/text/replay";
 import type { Recording } from "./data";
 
-/** The pieces of a curve are one, with no number where its controller was not in control. */
+/** The pieces of a curve are one array, with NaN while its controller was not in control. */
 export interface Curve extends Trace {
   values: Float32Array;
 }
 
-/** One set of curves of a plot; where there are several, the reader chooses. */
+/** One set of curves of a plot; if there are several, the user selects one. */
 interface Choice {
   label: string;
   curves: Curve[];
@@ -21,14 +22,14 @@ export interface ReplayPlot {
   key: string;
   title: string;
   unit: string;
-  /** The axis never shows less than this. */
+  /** Minimum range of the axis. */
   span: number;
   choices: Choice[];
 }
 
 const SHOWN = ["position", "error", "stiffness", "torque", "disturbance"] as const;
 
-/** Takes the piece of a curve out of its lane's samples. */
+/** Extract a piece of a curve from its lane's samples. */
 function copyPiece(into: Float32Array, { arrays, run }: Recording, trace: Trace): void {
   const numbers = run.curves.channels[trace.channel as StreamedName] ?? [];
   const values = arrays[numbers[trace.lane - 1] ?? -1];
@@ -54,6 +55,7 @@ function joinPieces(recording: Recording, traces: readonly Trace[]): Curve[] {
   return [...curves.values()];
 }
 
+/** Of an arm a plot for each joint. */
 export function definePlots(recording: Recording): ReplayPlot[] {
   const { segments, curves } = recording.run;
   const cast = segments.map((lane) =>
@@ -63,22 +65,26 @@ export function definePlots(recording: Recording): ReplayPlot[] {
     }),
   );
   const isRecorded = (name: ChannelName) => Object.hasOwn(curves.channels, name);
-  return SHOWN.map((preset) => {
-    const channels = PRESETS[preset].filter(isRecorded);
-    const belongs = (leader: string) => (name: ChannelName) =>
-      name === leader || CHANNELS[name].truthOf === leader || CHANNELS[name].isReference;
-    return {
-      key: preset,
-      title: text.plots.presets[preset],
-      unit: unitOf(channels),
-      span: spanOf(channels),
-      choices: composeContent(channels, cast).groups.map(({ key, label }) => {
-        const { groups, common } = composeContent(channels.filter(belongs(key)), cast);
-        const traces = groups.flatMap((group) => group.traces);
-        return { label, curves: joinPieces(recording, [...traces, ...common]) };
-      }),
-    };
-  }).filter(({ choices }) => choices.length > 0);
+  const joints: readonly (Joint | null)[] = recording.run.arm === null ? [null] : [1, 2];
+  return SHOWN.flatMap((preset) => joints.map((joint) => ({ preset, joint })))
+    .map(({ preset, joint }) => {
+      const channels = PRESETS[preset].filter(isRecorded);
+      const belongs = (leader: string) => (name: ChannelName) =>
+        name === leader || CHANNELS[name].truthOf === leader || CHANNELS[name].isReference;
+      const title = text.plots.presets[preset];
+      return {
+        key: joint === null ? preset : `${preset}.${joint}`,
+        title: joint === null ? title : text.plots.ofJoint(joint, title),
+        unit: unitOf(channels),
+        span: spanOf(channels),
+        choices: composeOfJoint(channels, cast, joint).groups.map(({ key, label }) => {
+          const { groups, common } = composeOfJoint(channels.filter(belongs(key)), cast, joint);
+          const traces = groups.flatMap((group) => group.traces);
+          return { label, curves: joinPieces(recording, [...traces, ...common]) };
+        }),
+      };
+    })
+    .filter(({ choices }) => choices.length > 0);
 }
 
 /** The time axis of every curve: equal steps, the last point at the end of the run. */

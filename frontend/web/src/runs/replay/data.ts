@@ -1,7 +1,8 @@
-/** The run inside the page: JSON, and arrays of numbers packed into one compressed text. */
+/** The run inside the page: JSON, and number arrays in one compressed text. */
+import type { ArmSetup } from "../../core/api/arm";
 import type { MeasuredWindow, Metrics } from "../../core/api/types";
 import type { RunEvent } from "../../core/plots/eventlines";
-import { type Mark, markOf } from "../../core/state/plant";
+import { type PlantKind, plantKindOfRun } from "../../core/state/plant";
 import type { Measured } from "../list/measured";
 
 export interface Track {
@@ -9,13 +10,13 @@ export interface Track {
   kind: string;
   name: string;
   field: string;
-  /** Number of the array of frames at which the property changes; the first is 0. */
+  /** Index of the array of frames at which the property changes; the first is 0. */
   keys: number;
-  /** Numbers: `width` of them a key. */
+  /** Numbers: `width` of them per key. */
   width?: number;
   values?: number;
   smooth?: boolean;
-  /** Words and switches, one a key. */
+  /** Strings and booleans, one per key. */
   words?: (string | boolean)[];
 }
 
@@ -26,7 +27,7 @@ export interface Motion {
   theme: Record<string, unknown>;
 }
 
-/** Who controlled a lane, from a time of the page on up to before another. */
+/** A controller of a lane, from one time of the page up to before another. */
 export interface LaneSegment {
   number: number;
   name: string;
@@ -41,15 +42,17 @@ export interface Run {
   period_s: number;
   ticks: number;
   lanes: string[];
-  /** Of every lane, in the order of time. */
+  /** Links of an arm, whose lanes are those of its joints; null for a single joint. */
+  arm: ArmSetup["links"] | null;
+  /** For every lane, in the order of time. */
   segments: LaneSegment[][];
   details: Record<string, unknown>;
   events: RunEvent[];
-  /** In which the metrics were measured, in the time of the page. */
+  /** Window of the metrics, in the time of the page. */
   window: Measured & Pick<MeasuredWindow, "kind">;
-  /** Of every lane; none where samples are no numbers. */
+  /** Metrics of every lane; none if samples are missing. */
   metrics: Metrics[];
-  /** Of `stride` samples one is drawn, with the peaks between. */
+  /** One of `stride` samples is drawn, with the peaks between. */
   curves: { step_s: number; stride: number; channels: Record<string, number[]> };
   motion: Motion;
   arrays: { places: Packed[]; data: string };
@@ -64,11 +67,11 @@ export interface Recording {
 }
 
 /** The label next to the picture; empty for a simulation. */
-export function findMark({ details: { plant } }: Run): Mark | null {
-  return plant === "emulated" || plant === "bench" ? markOf(plant) : null;
+export function findMark({ details: { plant } }: Run): PlantKind | null {
+  return plant === "emulated" || plant === "bench" ? plantKindOfRun(plant) : null;
 }
 
-/** Reads the run out of the page; throws where it is damaged. */
+/** Read the run from the page; throws if it is damaged. */
 export async function readRecording(): Promise<Recording> {
   const run = JSON.parse(document.getElementById("run")?.textContent ?? "") as Run;
   const bytes = await inflate(run.arrays.data);
@@ -82,21 +85,21 @@ async function inflate(base64: string): Promise<Uint8Array> {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-// Arrays as `svsa_scene/replay_packing.py` packs them.
+// Arrays as packed by `svsa_scene/replay_packing.py`.
 
-/** First byte, number of values and, of a curve, the step of which they are multiples. */
+/** First byte, number of values and, for a curve, the step of which they are multiples. */
 type Packed = [start: number, count: number, step?: number];
 
-/** No number. */
+/** Code of NaN. */
 const NONE = -(2 ** 31);
 
 export function unpack(bytes: Uint8Array, [start, count, step]: Packed): Float32Array {
-  const words = joinPlanes(bytes, start, count);
-  return step === undefined ? new Float32Array(words.buffer) : addUp(words, step);
+  const words = mergePlanes(bytes, start, count);
+  return step === undefined ? new Float32Array(words.buffer) : cumulativeSum(words, step);
 }
 
-/** Words of 4 bytes of which all first bytes stand together, then all second ones, and so on. */
-function joinPlanes(bytes: Uint8Array, start: number, count: number): Uint32Array<ArrayBuffer> {
+/** 4-byte words, stored as all first bytes, then all second bytes, and so on. */
+function mergePlanes(bytes: Uint8Array, start: number, count: number): Uint32Array<ArrayBuffer> {
   const joined = new Uint8Array(count * 4);
   for (let plane = 0; plane < 4; plane++) {
     const from = start + plane * count;
@@ -107,8 +110,8 @@ function joinPlanes(bytes: Uint8Array, start: number, count: number): Uint32Arra
   return new Uint32Array(joined.buffer);
 }
 
-/** From differences, 0, −1, 1, −2 … written as 0, 1, 2, 3 …, to values. */
-function addUp(changes: Uint32Array, step: number): Float32Array {
+/** Decode differences (0, −1, 1, −2 … stored as 0, 1, 2, 3 …) to values. */
+function cumulativeSum(changes: Uint32Array, step: number): Float32Array {
   const values = new Float32Array(changes.length);
   let whole = 0;
   changes.forEach((change, index) => {

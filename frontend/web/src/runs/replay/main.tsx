@@ -1,5 +1,7 @@
-/** The page of an exported run; `window.svsaReplay` lets a console, a test or the page
- * around it move it. */
+/**
+ * The page of an exported run; `window.svsaReplay` lets the console, a test or the surrounding page
+ * control it.
+ */
 import "uplot/dist/uPlot.min.css";
 import "../../theme.css";
 import "../../base.css";
@@ -17,7 +19,7 @@ import { useMemo } from "preact/hooks";
 import { type Theme, theme } from "../../core/state/preferences";
 import { text } from "../../core/text/replay";
 import { Header } from "./about";
-import { answerKey, seek, setUpClock, timeS } from "./clock";
+import { handleKey, seek, setUpClock, timeS } from "./clock";
 import { definePlots, makeTimeAxis } from "./curves";
 import { type Recording, readRecording } from "./data";
 import { Numbers } from "./numbers";
@@ -31,7 +33,7 @@ declare global {
   }
 }
 
-/** The moment that the address names, as `?t=12.3`; 0 where it names none. */
+/** The moment in the address, `?t=12.3`; 0 by default. */
 function readMoment(): number {
   const timeS = Number(new URLSearchParams(location.search).get("t"));
   return Number.isFinite(timeS) ? timeS : 0;
@@ -50,7 +52,7 @@ try {
   seek(readMoment());
   document.documentElement.classList.toggle("is-embedded", window.parent !== window);
   render(<App recording={recording} />, host);
-  window.addEventListener("keydown", answerKey);
+  window.addEventListener("keydown", handleKey);
   const setTheme = (chosen: Theme) => {
     theme.value = chosen;
   };
@@ -69,7 +71,10 @@ function App({ recording }: { recording: Recording }) {
       <main>
         <View recording={recording} />
         <Numbers recording={recording} />
-        <section class="surface plots" aria-label={text.plots.heading}>
+        <section
+          class={`surface plots ${recording.run.arm === null ? "" : "is-arm"}`}
+          aria-label={text.plots.heading}
+        >
           {plots.map((plot, index) => (
             <Plot
               key={plot.key}

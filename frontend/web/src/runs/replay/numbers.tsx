@@ -2,6 +2,7 @@ import type { Metrics as LaneMetrics } from "../../core/api/types";
 import { AllMetrics } from "../../core/plots/allmetrics";
 import { lineStyleAt, lineStyleOfLane } from "../../core/plots/linestyles";
 import { type MetricsColumn, MetricsTable } from "../../core/plots/metricstable";
+import { LANES_OF_ARM } from "../../core/state/joints";
 import { metricsText } from "../../core/text/metrics";
 import { text } from "../../core/text/replay";
 import { formatNumber, toDegrees } from "../../core/units";
@@ -14,9 +15,12 @@ const { numbers } = text;
 const formatMetric = (value: number | null) => formatNumber(value, 3, 4);
 const formatError = (rad: number | null) => formatMetric(rad === null ? null : toDegrees(rad));
 
-/** Of who controlled the lane in the window. */
+/** Controller of the lane in the window. */
 const lineStyleIn = ({ segments, window }: Run, lane: number): number =>
   lineStyleAt(segments[lane], window.start_s) ?? lane;
+
+/** Number of the lanes that are not comparisons. */
+const ownLanes = ({ arm }: Run): number => (arm === null ? 1 : LANES_OF_ARM);
 
 function Metrics({ run }: { run: Run }) {
   const { window, metrics } = run;
@@ -66,7 +70,7 @@ function Metrics({ run }: { run: Run }) {
       ]}
       rows={window.lanes.map((name, index) => ({
         key: `${index}.${name}`,
-        look: lineStyleOfLane(lineStyleIn(run, index), index === 0),
+        look: lineStyleOfLane(lineStyleIn(run, index), index < ownLanes(run)),
         name,
       }))}
       columns={columns}
@@ -78,7 +82,7 @@ function Details({ run }: { run: Run }) {
   const { window, metrics } = run;
   const lanes = window.lanes.map((name, index) => ({
     key: `${index}.${name}`,
-    look: lineStyleOfLane(lineStyleIn(run, index), index === 0),
+    look: lineStyleOfLane(lineStyleIn(run, index), index < ownLanes(run)),
     name,
     metrics: metrics[index] ?? null,
     isDisturbed: isDisturbed(window),

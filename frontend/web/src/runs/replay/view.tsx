@@ -1,17 +1,18 @@
 import { effect } from "@preact/signals";
 import { useCallback, useEffect, useRef, useState } from "preact/hooks";
 import { lineStyleOf } from "../../core/plots/linestyles";
+import { LANES_OF_ARM, nameArms } from "../../core/state/joints";
 import { theme } from "../../core/state/preferences";
 import { text } from "../../core/text/replay";
 import { PlantMark } from "../../core/widgets/plantmark";
 import { SceneLabels } from "../../lab/scene/labels";
-import { answerKey, timeS } from "./clock";
+import { handleKey, timeS } from "./clock";
 import { findMark, type Recording, type Run } from "./data";
 import { Scene } from "./scene";
 
 const FASTEST_MS = 1000 / 30;
 
-/** Shows the clock's time in 3D, at most 30 times a second. */
+/** Shows the clock's time in 3D, at most 30 times per second. */
 function followClock(scene: Scene): () => void {
   let shownAt = 0;
   let pending = 0;
@@ -32,7 +33,7 @@ function followClock(scene: Scene): () => void {
   };
 }
 
-/** The outlines of a lane have the colours of its curves. */
+/** The outlines of a lane have the colors of its curves. */
 const coloursOf = ({ segments }: Run, lane: number) => [
   ...new Set(segments[lane]?.map(({ line_style: lineStyle }) => lineStyleOf(lineStyle).colour)),
 ];
@@ -41,13 +42,14 @@ export function View({ recording: { run, arrays } }: { recording: Recording }) {
   const frame = useRef<HTMLIFrameElement>(null);
   const [state, setState] = useState<"starting" | "shown" | "failed">("starting");
   const present = useCallback(() => frame.current, []);
+  const [own, plants] = run.arm === null ? [1, run.lanes] : [LANES_OF_ARM, nameArms(run.lanes)];
   useEffect(() => {
     const element = frame.current;
     if (element === null) return;
     const scene = new Scene(run.motion, arrays);
     const ends: (() => void)[] = [];
     const start = async () => {
-      element.contentWindow?.addEventListener("keydown", answerKey, true);
+      element.contentWindow?.addEventListener("keydown", handleKey, true);
       if (!(await scene.connect(element))) return setState("failed");
       ends.push(effect(() => scene.setTheme(theme.value === "dark")));
       ends.push(followClock(scene));
@@ -66,14 +68,14 @@ export function View({ recording: { run, arrays } }: { recording: Recording }) {
       <PlantMark kind={findMark(run)} />
       {state === "failed" && <p class="muted view-problem">{text.noView}</p>}
       <ul class="row view-legend">
-        {run.lanes.map((lane, index) => (
-          <li key={`${index}.${lane}`}>
+        {plants.map((name, index) => (
+          <li key={`${index}.${name}`}>
             {index === 0 ? (
               <i class="is-actuator" />
             ) : (
-              coloursOf(run, index).map((colour) => <i key={colour} class={`is-${colour}`} />)
+              coloursOf(run, own * index).map((colour) => <i key={colour} class={`is-${colour}`} />)
             )}
-            <span class="legend-name">{lane}</span>
+            <span class="legend-name">{name}</span>
             <small>{index === 0 ? text.drawn.lane : text.drawn.ghost}</small>
           </li>
         ))}
@@ -81,6 +83,12 @@ export function View({ recording: { run, arrays } }: { recording: Recording }) {
           <i class="is-reference" />
           {text.drawn.reference}
         </li>
+        {run.arm !== null && (
+          <li>
+            <i class="is-ellipse" />
+            {text.drawn.ellipse}
+          </li>
+        )}
       </ul>
     </section>
   );
