@@ -1,33 +1,25 @@
-/** What keeps one from beginning a step here, and the ways out. */
+/** Obstacles to starting a step here, and the possible solutions. */
 import type { Step } from "../../core/api/course";
-import { isPrivate } from "../../core/api/request";
 import {
   hasControl,
   isInstructor,
   isObserver,
-  leaveControl,
+  openOwnSession,
   otherHolder,
   queue,
-  wishControl,
+  releaseControl,
+  requestControl,
 } from "../../core/state/control";
-import { bench, isLive } from "../../core/state/session";
+import { bench, isLive, session } from "../../core/state/session";
 import { text } from "../../core/text/en";
-import { isHeld } from "../../hardware/hold";
-import { isDoneHere, readinessOf } from "./benchstep";
-import { cut, workApart } from "./lesson";
+import { isSwitchHeld } from "../../hardware/hold";
+import { PrivateSessionButton } from "../../lab/lease/privatesession";
+import { isOfSession, isPossibleOn, readinessOf } from "./benchstep";
+import { interruption } from "./lesson";
 
 const words = text.lesson;
 
-function Apart() {
-  if (isPrivate) return null;
-  return (
-    <button type="button" class="button" title={words.apartHint} onClick={() => void workApart()}>
-      {words.apart}
-    </button>
-  );
-}
-
-/** Whose turn it is, and one's own place; a place that is there can be left. */
+/** The user in control, and this user's place in the queue, which the user can leave. */
 function Turn() {
   const inTurn = queue.value;
   const place = inTurn?.place ?? null;
@@ -42,7 +34,7 @@ function Turn() {
         <button
           type="button"
           class="button"
-          onClick={() => (place === null ? wishControl() : void leaveControl())}
+          onClick={() => (place === null ? requestControl() : void releaseControl())}
         >
           {place !== null
             ? text.control.leaveQueue
@@ -51,14 +43,14 @@ function Turn() {
               : text.control.take}
         </button>
       )}
-      <Apart />
+      <PrivateSessionButton />
     </>
   );
 }
 
-/** The last run of the step was cut off: by whom, when, and that it counts for nothing. */
+/** The last run of the step was interrupted: by which user, when, and that it does not count. */
 export function CutOff({ of }: { of: Step }) {
-  const last = cut.value;
+  const last = interruption.value;
   if (last?.step !== of.name) return null;
   return (
     <p class="note is-bad" role="alert">
@@ -70,11 +62,21 @@ export function CutOff({ of }: { of: Step }) {
 export function Obstacle({ of }: { of: Step }) {
   if (!isLive.value) return null;
   const now = bench.value;
-  if (!isDoneHere(of, now)) {
+  if (!isOfSession(of, session.value)) {
+    return (
+      <div class="note row">
+        <p>{of.arm === "" ? words.jointOnly : words.armOnly}</p>
+        <button type="button" class="button" onClick={() => void openOwnSession(of.arm)}>
+          {of.arm === "" ? words.openJoint : words.openArm}
+        </button>
+      </div>
+    );
+  }
+  if (!isPossibleOn(of, now)) {
     return (
       <div class="note row">
         <p>{words.simulatedOnly}</p>
-        <Apart />
+        <PrivateSessionButton />
       </div>
     );
   }
@@ -85,14 +87,14 @@ export function Obstacle({ of }: { of: Step }) {
       </div>
     );
   }
-  const { before } = readinessOf(now, isHeld.value);
+  const { nextAction: before } = readinessOf(now, isSwitchHeld.value);
   if (before === null) return null;
   return (
     <div class="note row">
       <p role="status">
         <strong>{words.before}</strong> {text.bench.advice[before]} {words.above}
       </p>
-      <Apart />
+      <PrivateSessionButton />
     </div>
   );
 }

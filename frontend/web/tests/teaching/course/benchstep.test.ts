@@ -2,10 +2,11 @@ import { describe, expect, it } from "vitest";
 import type { Step } from "../../../src/core/api/course";
 import type { BenchState, SessionState } from "../../../src/core/api/types";
 import {
-  askedOf,
-  findCut,
-  handDue,
-  isDoneHere,
+  criteriaOf,
+  dueManualLoad,
+  findInterruption,
+  isOfSession,
+  isPossibleOn,
   readinessOf,
 } from "../../../src/teaching/course/benchstep";
 
@@ -34,7 +35,7 @@ const state = (change: object) =>
 
 describe("what a bench may be asked for by a step", () => {
   it("is all of it where it is ready and at home, and in a simulation", () => {
-    const all = { mayBeSet: true, mayRun: true, before: null };
+    const all = { canConfigure: true, canRun: true, nextAction: null };
     expect(readinessOf(bench(), false)).toEqual(all);
     expect(readinessOf(null, false)).toEqual(all);
   });
@@ -42,49 +43,62 @@ describe("what a bench may be asked for by a step", () => {
   it("is no start before the required actions, which are named", () => {
     const ready = (change: object, held = false) => readinessOf(bench(change), held);
     expect(ready({ status: "ready", homing: { next_step: "link" } })).toMatchObject({
-      mayRun: false,
-      before: "home",
+      canRun: false,
+      nextAction: "home",
     });
-    expect(ready({ dead_man: true })).toMatchObject({ mayRun: false, before: "hold" });
-    expect(ready({ dead_man: true }, true)).toMatchObject({ mayRun: true, before: null });
-    expect(ready({ status: "fault" }).before).toBe("clear");
+    expect(ready({ dead_man: true })).toMatchObject({ canRun: false, nextAction: "hold" });
+    expect(ready({ dead_man: true }, true)).toMatchObject({ canRun: true, nextAction: null });
+    expect(ready({ status: "fault" }).nextAction).toBe("clear");
   });
 
   it("is nothing while it moves, or its loop does not tick", () => {
     expect(readinessOf(bench({ status: "run" }), false)).toEqual({
-      mayBeSet: false,
-      mayRun: false,
-      before: null,
+      canConfigure: false,
+      canRun: false,
+      nextAction: null,
     });
-    expect(readinessOf(bench({ status: "ramp" }), false).before).toBe("ramping");
+    expect(readinessOf(bench({ status: "ramp" }), false).nextAction).toBe("ramping");
     const silent = readinessOf(bench({ loop: { state: "silent" } }), false);
-    expect(silent).toMatchObject({ mayBeSet: false, mayRun: false });
+    expect(silent).toMatchObject({ canConfigure: false, canRun: false });
   });
 });
 
 describe("a step on a bench", () => {
   it("is there where the exercise says so, and has what is asked there", () => {
-    expect(isDoneHere(of(null), bench())).toBe(false);
-    expect(isDoneHere(of(null), null)).toBe(true);
-    expect(isDoneHere(HUNG, bench())).toBe(true);
-    expect(askedOf(HUNG, bench())).toEqual(["on a bench"]);
-    expect(askedOf(HUNG, null)).toEqual(["simulated"]);
+    expect(isPossibleOn(of(null), bench())).toBe(false);
+    expect(isPossibleOn(of(null), null)).toBe(true);
+    expect(isPossibleOn(HUNG, bench())).toBe(true);
+    expect(criteriaOf(HUNG, bench())).toEqual(["on a bench"]);
+    expect(criteriaOf(HUNG, null)).toEqual(["simulated"]);
   });
 
   it("tells what is to be done by hand, until a moment after", () => {
-    expect(handDue(HUNG, 0)?.time_s).toBe(5);
-    expect(handDue(HUNG, 6.9)?.time_s).toBe(5);
-    expect(handDue(HUNG, 7)?.is_on).toBe(false);
-    expect(handDue(HUNG, 11)).toBeNull();
-    expect(handDue(of(null), 0)).toBeNull();
+    expect(dueManualLoad(HUNG, 0)?.time_s).toBe(5);
+    expect(dueManualLoad(HUNG, 6.9)?.time_s).toBe(5);
+    expect(dueManualLoad(HUNG, 7)?.is_on).toBe(false);
+    expect(dueManualLoad(HUNG, 11)).toBeNull();
+    expect(dueManualLoad(of(null), 0)).toBeNull();
   });
 
   it("is cut off where control is lost or the bench is stopped, and not before it runs", () => {
-    expect(findCut(state({}), true)).toBeNull();
-    expect(findCut(state({}), false)).toBe("control");
-    expect(findCut(state({ bench: null }), false)).toBe("control");
-    expect(findCut(state({ bench: bench({ status: "ramp" }) }), true)).toBe("stopped");
-    expect(findCut(state({ bench: bench(), time_s: 0 }), true)).toBeNull();
-    expect(findCut(state({ bench: bench({ status: "fault" }) }), true)).toBeNull();
+    expect(findInterruption(state({}), true)).toBeNull();
+    expect(findInterruption(state({}), false)).toBe("control");
+    expect(findInterruption(state({ bench: null }), false)).toBe("control");
+    expect(findInterruption(state({ bench: bench({ status: "ramp" }) }), true)).toBe("stopped");
+    expect(findInterruption(state({ bench: bench(), time_s: 0 }), true)).toBeNull();
+    expect(findInterruption(state({ bench: bench({ status: "fault" }) }), true)).toBeNull();
+  });
+});
+
+describe("the session of a step", () => {
+  const step = (arm: string) => ({ arm }) as unknown as Step;
+  const session = (arm: object | null) => state({ configuration: { arm } });
+
+  it("is one of an arm for a step of an arm, and of a single joint for all others", () => {
+    expect(isOfSession(step("rods"), session({}))).toBe(true);
+    expect(isOfSession(step("rods"), session(null))).toBe(false);
+    expect(isOfSession(step(""), session(null))).toBe(true);
+    expect(isOfSession(step(""), session({}))).toBe(false);
+    expect(isOfSession(step("rods"), null)).toBe(true);
   });
 });
