@@ -1,4 +1,4 @@
-"""A bench that is not there: the page's calls and stream are patched between it and the lab."""
+"""A bench without hardware: the page's calls and stream are patched between page and lab."""
 
 import copy
 import json
@@ -76,7 +76,7 @@ def describe_fault(
     tick: int = 4200,
     values: dict[str, float] | None = None,
 ) -> dict[str, Any]:
-    """A session's fault as the server reports it."""
+    """Return a session's fault as the server reports it."""
     fault = Fault(code, lane, tick, tick / 1000, message, values or {})
     return build_session_fault(fault).model_dump(mode="json")
 
@@ -88,7 +88,7 @@ STATUS = {"run": "running", "ramp": "running", "fault": "fault"}
 class PatchedBench:
     """Answers the page's bench calls and puts `bench` into every state that the page gets.
 
-    fault: what a bench of status "fault" stands in.
+    fault: the fault of a bench whose status is "fault".
     """
 
     def __init__(self, page: Page, fault: dict[str, Any] | None = None, **change: Any) -> None:
@@ -104,23 +104,23 @@ class PatchedBench:
 
     @property
     def commands(self) -> list[str]:
-        """What was called, but for what only asks."""
+        """Return the calls except those that only read."""
         return [call for call, _ in self.calls if call != "bench/endurance"]
 
     def become(self, fault: dict[str, Any] | None = None, **change: Any) -> None:
-        """Be another bench in the same page, of which nothing has been asked yet."""
+        """Become another bench in the same page, without earlier calls."""
         self.calls.clear()
         self._fault = fault
         self.change(**copy.deepcopy(BENCH) | change)
 
     def change(self, **change: Any) -> None:
-        """Change the bench, and tell the page on its stream."""
+        """Change the bench, and notify the page on its stream."""
         self.bench |= change
         if self._stream is not None:
             self._stream.send(json.dumps({"type": "state", "state": self._reported}))
 
     def drop(self) -> None:
-        """The page loses its stream, and nothing answers it any more."""
+        """Disconnect the page: it loses its stream, and no call is answered."""
         self.page.route("**/api/v1/**", lambda route: route.abort())
         self.page.route_web_socket("**/stream**", lambda socket: socket.close())
         if self._stream is not None:

@@ -1,4 +1,4 @@
-"""The page on a bench, which `bench_fixture` puts between the page and a simulating lab."""
+"""The page with a bench, which `bench_fixture` inserts between the page and a simulating lab."""
 
 from collections.abc import Iterator
 
@@ -25,15 +25,15 @@ def opened_once(
     context.close()
 
 
-# Named apart from its function: a test imports the one and takes the other.
+# Not named like its function, since a test imports both.
 @pytest.fixture(name="patched")
 def switch_off(
     opened_once: PatchedBench, browser_context_args: dict, still_lab: Lab
 ) -> PatchedBench:
-    """A bench that is off, in the one page of these tests."""
+    """Switch off the bench in the shared page of these tests."""
     patched, page = opened_once, opened_once.page
     page.set_viewport_size(browser_context_args["viewport"])
-    # Nothing of a bench that runs opens the details on its own: if they are open, a user did it.
+    # A running bench never opens the details automatically: only a click does.
     patched.become(status="run", homing=HOMED)
     expect_stage(page, "Run")
     if find_details(page).get_attribute("aria-expanded") == "true":

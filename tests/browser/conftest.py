@@ -1,4 +1,4 @@
-"""A real Chromium: the one that SVSA_CHROMIUM names, or Debian's, or Playwright's own."""
+"""A real Chromium: from SVSA_CHROMIUM, or Debian's, or Playwright's own."""
 
 import os
 import shutil
@@ -12,8 +12,8 @@ from playwright.sync_api import Browser, BrowserContext, Error, Locator, Page, P
 from tests.lab import Lab
 from tests.waiting import follow_recording
 
-# Without a graphics card: the page is put together without one, WebGL is drawn by SwiftShader.
-# Putting the page together by SwiftShader too took most of a test's processor time.
+# Without a graphics card: the page is composed by software, and WebGL is drawn by SwiftShader.
+# Composing by SwiftShader as well took most of the CPU time of a test.
 ARGUMENTS = [
     "--no-sandbox",
     "--disable-gpu",
@@ -23,23 +23,25 @@ ARGUMENTS = [
     "--disable-component-update",
     "--disable-sync",
     "--no-first-run",
-    "--renderer-process-limit=1",  # a process again with every page that is opened costs more
-    # A browser's own pages, behind every window: they cost as much as the window itself.
+    "--renderer-process-limit=1",  # A new process for every page costs more.
+    # Internal pages of the browser behind every window cost as much as the window itself.
     "--disable-features=WebUIOmniboxPopup,WebUIOmniboxAimPopup",
 ]
 
-# Of a user who has been here before: no tour is offered, and all controls are shown.
+# A returning user: no tour is offered, and all controls are shown.
 RETURNING = """localStorage.setItem("svsa.tour", "done");
 localStorage.setItem("svsa.controls", "all");"""
 
 PATIENCE_MS = 60_000
-expect.set_options(timeout=PATIENCE_MS)  # a busy machine takes its time
+expect.set_options(timeout=PATIENCE_MS)  # a busy machine needs time
 
 press_at_once = Locator.press
 
 
 def press(self: Locator, key: str, **options: Any) -> None:
-    """As `click` does, where Playwright's own does not: a key on what is disabled is lost."""
+    """Press by `click`, or by key where Playwright cannot click; a key on a disabled control is
+    lost.
+    """
     expect(self).to_be_enabled()
     press_at_once(self, key, **options)
 
@@ -48,7 +50,7 @@ Locator.press = press
 
 
 def find_chromium() -> str | None:
-    """The path of a Chromium on this machine, or None."""
+    """Return the path of a Chromium on this machine, or None."""
     named = os.environ.get("SVSA_CHROMIUM")
     known = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
     return named or next((path for name in known if (path := shutil.which(name))), None)
@@ -56,7 +58,7 @@ def find_chromium() -> str | None:
 
 @pytest.fixture(scope="session")
 def browser_type_launch_args(playwright: Playwright) -> dict:
-    """How pytest-playwright starts Chromium; skips, and says so, where there is none."""
+    """Arguments of Chromium for pytest-playwright; skips with a message if there is none."""
     path = find_chromium()
     if path is None:
         try:
@@ -73,11 +75,11 @@ def browser_type_launch_args(playwright: Playwright) -> dict:
 
 @pytest.fixture(scope="session")
 def browser_context_args() -> dict:
-    """The size at which the page has to be usable without scrolling."""
+    """The size at which the page must be usable without scrolling."""
     return {"viewport": {"width": 1280, "height": 720}, "color_scheme": "light"}
 
 
-# What it writes while it is left would be there for the next test.
+# What it stores when it is left would remain for the next test.
 FORGET = """() => {
     Storage.prototype.setItem = () => undefined;
     localStorage.clear();
@@ -86,10 +88,11 @@ FORGET = """() => {
 
 
 class KeptPage:
-    """A page that goes from one test to the next, as new: to open another takes 1 s and more.
+    """A page that is reset between tests, since opening another takes more than 1 s.
 
-    Not for what cannot be taken back from a page: a script for every document, a patched
-    WebSocket. Such a test uses `own_page`, or `bench_page` where all patch the same.
+    Not for changes that cannot be undone on a page: a script for every document, or a patched
+    WebSocket. A test with such a change uses `own_page`, or `bench_page` if all tests patch the
+    same.
     """
 
     def __init__(self, browser: Browser, arguments: dict) -> None:
@@ -103,7 +106,7 @@ class KeptPage:
         return self._page
 
     def forget(self) -> None:
-        """Nothing of the test before is left; where that fails, nor is the page."""
+        """Remove all state of the previous test, or else the page."""
         try:
             self._clean(self.get())
         except Error:
@@ -128,7 +131,7 @@ class KeptPage:
 
 @pytest.fixture(scope="session")
 def kept_pages(browser: Browser, browser_context_args: dict) -> Iterator[tuple[KeptPage, KeptPage]]:
-    """One for most tests, one for those that patch a bench into it."""
+    """One page for most tests, one for those that patch a bench into it."""
     kept = KeptPage(browser, browser_context_args), KeptPage(browser, browser_context_args)
     yield kept
     for one in kept:
@@ -137,21 +140,21 @@ def kept_pages(browser: Browser, browser_context_args: dict) -> Iterator[tuple[K
 
 @pytest.fixture
 def kept_page(kept_pages: tuple[KeptPage, KeptPage]) -> Iterator[Page]:
-    """The page that other tests had before; `page` of a module that uses this fixture."""
+    """The shared page; `page` of a module that uses this fixture."""
     yield kept_pages[0].get()
     kept_pages[0].forget()
 
 
 @pytest.fixture
 def bench_page(kept_pages: tuple[KeptPage, KeptPage]) -> Iterator[Page]:
-    """As `kept_page`, for tests that each patch a bench into it: the last patch counts."""
+    """`kept_page` for tests that each patch a bench into it: the last patch counts."""
     yield kept_pages[1].get()
     kept_pages[1].forget()
 
 
 @pytest.fixture
 def page(request: pytest.FixtureRequest) -> Page:
-    """`kept_page` or `bench_page` where a module uses it, else a page of the test's own."""
+    """`kept_page` or `bench_page` in a module that uses it, else a separate page."""
     kept = (name for name in ("kept_page", "bench_page") if name in request.fixturenames)
     return request.getfixturevalue(next(kept, "own_page"))
 
@@ -164,7 +167,7 @@ def own_page(context: BrowserContext) -> Page:
 
 @pytest.fixture(scope="module")
 def lab_without_runs(shared_lab: Lab) -> Lab:
-    """The shared lab with one lane; the runs that others have recorded are in the trash."""
+    """The shared lab with one lane; the runs of other tests are in the trash."""
     client = shared_lab.client
     client.delete(shared_lab.session + "/recording")
     client.put(shared_lab.session + "/lanes", json={"comparisons": []}).raise_for_status()
@@ -177,13 +180,13 @@ def lab_without_runs(shared_lab: Lab) -> Lab:
 
 @pytest.fixture
 def still(lab: Lab) -> None:
-    """The shared session stands at 1 s: a page at rest draws nothing."""
+    """The shared session, paused at 1 s: a page at rest draws nothing."""
     lab.jump(1)
 
 
 @pytest.fixture
 def still_lab(lab: Lab, still: None) -> Iterator[Lab]:
-    """The shared lab, standing still; the private sessions of a test end with it."""
+    """The shared lab, paused; the private sessions of a test end with it."""
     yield lab
     for one in lab.client.get("/api/v1/sessions").raise_for_status().json():
         if one["session"] != "lab":
@@ -192,7 +195,7 @@ def still_lab(lab: Lab, still: None) -> Iterator[Lab]:
 
 @pytest.fixture
 def without_3d(request: pytest.FixtureRequest) -> None:
-    """The frame of the 3D view stays empty, for tests that do not look at it.
+    """The frame of the 3D view stays empty, for tests that do not need it.
 
     Without a graphics card, drawing it takes most of a test's time.
     """
@@ -206,5 +209,5 @@ def without_3d(request: pytest.FixtureRequest) -> None:
 
 
 def leave_3d_empty(one: Page | BrowserContext) -> None:
-    """As `without_3d`, of a page that a module opens once."""
+    """`without_3d` for a page that a module opens once."""
     one.route("**/viser/**", lambda route: route.fulfill(body="<title>3D</title>"))

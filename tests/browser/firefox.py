@@ -1,4 +1,4 @@
-"""Firefox by WebDriver BiDi: over the WebSocket that it opens itself, without a driver."""
+"""Firefox by WebDriver BiDi over its WebSocket, without a driver."""
 
 import base64
 import contextlib
@@ -20,7 +20,7 @@ from websockets.sync.client import ClientConnection, connect
 LONG_S = 60.0
 BETWEEN_LOOKS_S = 0.1
 LARGEST_MESSAGE = 1 << 26
-# No page of its own at the start, and nothing requested from elsewhere.
+# No start page, and no requests to other sites.
 PREFERENCES: Mapping[str, object] = {
     "app.update.disabledForTesting": True,
     "browser.aboutwelcome.enabled": False,
@@ -37,7 +37,7 @@ PREFERENCES: Mapping[str, object] = {
 
 
 def find_firefox() -> str:
-    """The path of a Firefox on this machine; skips where there is none.
+    """Return the path of a Firefox on this machine; skips if there is none.
 
     With `SVSA_MUST_FIREFOX` set, the test fails instead.
     """
@@ -81,11 +81,11 @@ class Firefox:
         self._send("browsingContext.setViewport", context=self._window, viewport=size)
 
     def open(self, url: str) -> None:
-        """Open an address, until it is loaded."""
+        """Open an address, and wait until it is loaded."""
         self._send("browsingContext.navigate", context=self._window, url=url, wait="complete")
 
     def evaluate(self, expression: str) -> Any:
-        """The value of an expression in the page, or of the promise that it is."""
+        """Return the value of an expression in the page, or of its promise."""
         answer = self._send(
             "script.evaluate",
             expression=f"Promise.resolve({expression}).then((it) => JSON.stringify(it ?? null))",
@@ -97,7 +97,7 @@ class Firefox:
         return json.loads(answer["result"]["value"])
 
     def wait_for(self, expression: str) -> None:
-        """Until an expression is true in the page."""
+        """Wait until an expression is true in the page."""
         end = time.monotonic() + LONG_S
         while not self.evaluate(f"!!({expression})"):
             if time.monotonic() > end:
@@ -105,14 +105,14 @@ class Firefox:
             time.sleep(BETWEEN_LOOKS_S)
 
     def take_screenshot(self) -> bytes:
-        """The page as PNG."""
+        """Return the page as PNG."""
         answer = self._send("browsingContext.captureScreenshot", context=self._window)
         return base64.b64decode(answer["data"])
 
 
 @contextlib.contextmanager
 def run_display() -> Iterator[str]:
-    """A display for Firefox, which draws WebGL in a window only: X's own without a screen.
+    """Run a display for Firefox, which draws WebGL in a window only: the X server without a screen.
 
     Skips where there is no Xvfb, unless `SVSA_MUST_FIREFOX` is set.
     """
@@ -136,10 +136,10 @@ def run_display() -> Iterator[str]:
 
 @contextlib.contextmanager
 def run_firefox(path: str, display: str | None = None, **preferences: object) -> Iterator[Firefox]:
-    """Start Firefox with a profile of its own, and end it.
+    """Start Firefox with its own profile, and end it.
 
-    display: of its window; without one it has none, and no WebGL. preferences: of about:config,
-    with `_` in place of each dot.
+    display: the display of its window; without it, Firefox has no window and no WebGL. preferences:
+    those of about:config, with `_` in place of each dot.
     """
     with tempfile.TemporaryDirectory(prefix="svsa-firefox-", ignore_cleanup_errors=True) as folder:
         chosen = PREFERENCES | {name.replace("_", "."): one for name, one in preferences.items()}

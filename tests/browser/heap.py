@@ -1,6 +1,7 @@
-"""How much memory a page holds while loads come and go."""
+"""Memory of a page while loads are added and removed."""
 
-from typing import NamedTuple
+import json
+from typing import Any, NamedTuple
 
 from playwright.sync_api import CDPSession, Page
 
@@ -10,7 +11,11 @@ LOAD_PERIOD_S = 10.0
 
 
 class Heap(NamedTuple):
-    """What a page and the frames in it hold after a collection: MB, and counts."""
+    """Objects of a page and its frames after a garbage collection: MB, and counts.
+
+    The size leaves out machine code: V8 compiles further functions while a page is used, and drops
+    them only under memory pressure.
+    """
 
     size_mb: float
     nodes: int
@@ -25,21 +30,28 @@ def watch_heap(page: Page) -> CDPSession:
 
 
 def measure_heap(devtools: CDPSession) -> Heap:
-    """What is held now: collections go on until none frees more than a hundredth of it.
+    """Count the objects of a heap snapshot; Chromium collects garbage before it takes one."""
+    chunks: list[str] = []
 
-    What one collection finalizes is freed by the next.
-    """
-    held = _collect(devtools)
-    while (left := _collect(devtools)).size_mb < 0.99 * held.size_mb:
-        held = left
-    return left
+    def add(event: dict[str, str]) -> None:
+        chunks.append(event["chunk"])
 
-
-def _collect(devtools: CDPSession) -> Heap:
-    devtools.send("HeapProfiler.collectGarbage")
+    devtools.on("HeapProfiler.addHeapSnapshotChunk", add)
+    devtools.send("HeapProfiler.takeHeapSnapshot", {"reportProgress": False})
+    devtools.remove_listener("HeapProfiler.addHeapSnapshotChunk", add)
     metrics = {m["name"]: m["value"] for m in devtools.send("Performance.getMetrics")["metrics"]}
-    size_mb = metrics["JSHeapUsedSize"] / 1e6
+    size_mb = _sum_objects(json.loads("".join(chunks))) / 1e6
     return Heap(size_mb, metrics["Nodes"], metrics["JSEventListeners"])
+
+
+def _sum_objects(snapshot: dict[str, Any]) -> int:
+    """Sum the sizes of the nodes of a heap snapshot that are not machine code: bytes."""
+    meta, nodes = snapshot["snapshot"]["meta"], snapshot["nodes"]
+    fields = meta["node_fields"]
+    types = nodes[fields.index("type") :: len(fields)]
+    sizes = nodes[fields.index("self_size") :: len(fields)]
+    code = meta["node_types"][fields.index("type")].index("code")
+    return sum(size for kind, size in zip(types, sizes, strict=True) if kind != code)
 
 
 def prepare_lab(lab: Lab, page: Page) -> None:
@@ -49,7 +61,7 @@ def prepare_lab(lab: Lab, page: Page) -> None:
 
 
 def swing_load(lab: Lab) -> None:
-    """Hang the paper's load, or take it off."""
+    """Add or remove the paper's load."""
     loads = [load for load in lab.read()["loads"] if load["active"]]
     if loads:
         lab.client.delete(f"{lab.session}/loads/{loads[0]['id']}").raise_for_status()

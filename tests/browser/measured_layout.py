@@ -1,6 +1,6 @@
-"""What is wrong with the layout of the page as it stands: measured in the browser."""
+"""Layout problems of the present page, measured in the browser."""
 
-# Resolves to sentences. Everything is scrolled to before it is measured, and every fold opened.
+# Resolves to sentences. Every element is scrolled into view and every fold opened first.
 FIND_PROBLEMS = """async (leastPlot) => {
     const PANELS = ".group, .readout, .comparison, .plots, .view, .topbar, .bench-card," +
         " .bench-strip, .hold, .load-place, .statusbar";
@@ -117,8 +117,8 @@ FIND_PROBLEMS = """async (leastPlot) => {
     return [...new Set(problems)];
 }"""
 
-# Opens every popup in turn: it lies on the screen whole, above the status bar. A popup that is
-# still being filled has some frames of time to find its place.
+# Opens every popup in turn: it must be fully on the screen, above the status bar. A popup that is
+# still being filled has some frames to find its position.
 FIND_POPUP_PROBLEMS = """async () => {
     const problems = [];
     const floor = document.querySelector(".statusbar").getBoundingClientRect().top;

@@ -18,7 +18,7 @@ LONGEST_MS = 90_000
 
 
 def compare(lab: Lab, seconds: float = 9.0) -> None:
-    """FL next to NDOBC, so long into Figure 4A."""
+    """FL and NDOBC, until this time of Figure 4A."""
     lab.load_figure()
     lab.client.put(lab.session + "/lanes", json={"comparisons": [{"law": "fl"}]}).raise_for_status()
     lab.jump(seconds)
@@ -26,21 +26,21 @@ def compare(lab: Lab, seconds: float = 9.0) -> None:
 
 
 def hang_load(page: Page, before_ms: int, after_ms: int) -> None:
-    """Hang 3 kg and wait until it is seen what that did."""
+    """Hang 3 kg and wait until the effect is visible."""
     page.wait_for_timeout(before_ms)
     page.get_by_role("button", name=re.compile("Hang 3 kg")).click()
     page.wait_for_timeout(after_ms)
 
 
 def show_dashboard(page: Page, lab: Lab) -> None:
-    """FL next to NDOBC 4 s after the 3 kg load."""
+    """FL and NDOBC 4 s after the 3 kg load."""
     compare(lab)
     page.goto(lab.url)
     hang_load(page, 6000, 4000)
 
 
 def show_cursors(page: Page, lab: Lab) -> None:
-    """The same, measured between two cursors that stand after the load."""
+    """The same, measured between two cursors after the load."""
     compare(lab, 2.0)
     page.goto(lab.url)
     hang_load(page, 1000, 14000)
@@ -48,7 +48,7 @@ def show_cursors(page: Page, lab: Lab) -> None:
 
 
 def show_design(page: Page, lab: Lab) -> None:
-    """Poles on the s-plane with what they would do."""
+    """Poles on the s-plane with their predicted effect."""
     compare(lab)
     page.goto(lab.url)
     page.get_by_role("button", name="Place poles").click()
@@ -59,7 +59,7 @@ def show_design(page: Page, lab: Lab) -> None:
 
 
 def show_overlay(page: Page, lab: Lab) -> None:
-    """Two recorded runs laid over one another from their load on."""
+    """An overlay of two recorded runs, aligned at their load."""
     for stiffness in (15, 60):
         compare(lab, 3)
         reference = {"kind": "constant", "stiffness_nm_per_rad": stiffness}
@@ -80,7 +80,7 @@ def show_overlay(page: Page, lab: Lab) -> None:
 
 
 def show_ranking(page: Page, lab: Lab) -> None:
-    """The laws in their table."""
+    """The table of laws."""
     page.goto(lab.url + "/?ranking=all")
     page.get_by_role("heading", name="Position error against stiffness error").wait_for(
         timeout=LONGEST_MS
@@ -94,7 +94,7 @@ def take(
     show: Callable[[Page, Lab], None],
     schemes: tuple[Literal["light", "dark"], ...] = ("light",),
 ) -> None:
-    """A picture in each colour scheme, small enough for version control."""
+    """Take a picture in each color scheme, small enough for version control."""
     for scheme in schemes:
         context = browser.new_context(viewport={"width": 1280, "height": 720}, color_scheme=scheme)
         page = context.new_page()
@@ -108,7 +108,7 @@ def take(
 
 
 def take_screenshots() -> None:
-    """Every picture of the README."""
+    """Take every picture of the README."""
     FOLDER.mkdir(exist_ok=True)
     with run_lab() as lab, sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=find_chromium(), args=ARGUMENTS)

@@ -1,4 +1,4 @@
-"""What is measured in a page once the page has found the place of everything."""
+"""Measurements in a page after its layout has settled."""
 
 from collections.abc import Callable
 
@@ -8,7 +8,7 @@ LOOKS, BETWEEN_LOOKS_MS = 40, 150
 
 
 def until(page: Page, is_so: Callable[[], object]) -> None:
-    """As `expect` does, look again while it is not so."""
+    """Repeat until true, like `expect`."""
     for _ in range(LOOKS):
         if is_so():
             return
@@ -17,7 +17,7 @@ def until(page: Page, is_so: Callable[[], object]) -> None:
 
 
 def find_lasting(page: Page, find: Callable[[], list[str]]) -> list[str]:
-    """What is found wrong for good: where something is, the page is looked at again."""
+    """Return lasting problems: after a finding, the page is measured again."""
     found = find()
     for _ in range(LOOKS):
         if not found:
@@ -28,7 +28,7 @@ def find_lasting(page: Page, find: Callable[[], list[str]]) -> list[str]:
 
 
 def resize(page: Page, width: int, height: int) -> None:
-    """Until the page knows its size."""
+    """Resize, and wait until the page has its size."""
     page.set_viewport_size({"width": width, "height": height})
     page.wait_for_function(
         "([width, height]) => innerWidth === width && innerHeight === height", arg=[width, height]
@@ -36,7 +36,7 @@ def resize(page: Page, width: int, height: int) -> None:
 
 
 def get_box(one: Locator) -> FloatRect:
-    """Of what is there to be measured."""
+    """Return the box of an element that exists."""
     box = one.bounding_box()
     assert box is not None
     return box

@@ -23,10 +23,10 @@ AXE = WEB / "node_modules" / "axe-core" / "axe.min.js"
 COLOURS = ["color-contrast", "link-in-text-block"]
 TAGS = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"]
 WIDE, TABLET, PHONE = (1280, 720), (820, 1180), (390, 844)
-# Nothing of an opened group is cut by the end of its panel, which axe takes for a control that is
-# too small.
-# Where a list scrolls, axe takes what is scrolled away of a target for all the room that it has;
-# as high as this, all is in sight.
+# No control of an opened group is cut by the end of its panel, which axe would take for a control
+# that is too small.
+# In a scrolling list, axe counts the scrolled-away space of a target as available; at this height
+# everything is in view.
 HIGH = (1280, 1100)
 # The inside of the 3D view is viser's page; the frame itself is checked.
 FIND_VIOLATIONS = """async (rules) => {
@@ -40,7 +40,7 @@ IS_STILL = "() => !document.getAnimations().some((one) => one instanceof CSSTran
 
 @pytest.fixture(scope="module")
 def recorded(lab_without_runs: Lab) -> Lab:
-    """A lab with two runs and FL next to NDOBC under the load."""
+    """A lab with two runs, and FL and NDOBC under the load."""
     lab = lab_without_runs
     lab.client.put(lab.session + "/lanes", json={"comparisons": [{"law": "fl"}]}).raise_for_status()
     lab.load_figure()
@@ -58,7 +58,9 @@ def recorded(lab_without_runs: Lab) -> Lab:
 
 
 def expect_no_violation(page: Page, *sizes: tuple[int, int]) -> None:
-    """By axe at each size, and in dark by its rules of colour: else it is the same page."""
+    """Check with axe at each size, and in dark by its color rules, since the page is otherwise
+    equal.
+    """
     found: list[str] = []
     page.evaluate(AXE.read_text(encoding="utf-8"))
     for width, height in sizes:
@@ -87,7 +89,9 @@ def open_button(name: str) -> Callable[[Page, Lab], None]:
 
 def open_learn(page: Page, lab: Lab) -> None:
     page.goto(f"{lab.url}/?learn=all")
-    expect(page.get_by_role("link", name=re.compile("Start.*The real thing"))).to_be_visible()
+    expect(
+        page.get_by_role("link", name=re.compile("Start.*From simulation to bench"))
+    ).to_be_visible()
 
 
 def open_exercise(page: Page, lab: Lab) -> None:
@@ -219,7 +223,7 @@ EXHAUSTIVE = pytest.mark.exhaustive
     ],
 )
 @pytest.mark.smoke
-def test_a_screen_has_no_violation(
+def test_screen_has_no_violation(
     page: Page,
     recorded: Lab,
     show: Callable[[Page, Lab], None],
@@ -229,7 +233,7 @@ def test_a_screen_has_no_violation(
     expect_no_violation(page, *sizes)
 
 
-def test_the_keyboard_skips_to_the_plots_and_to_the_controls(page: Page, recorded: Lab) -> None:
+def test_keyboard_skips_to_the_plots_and_to_the_controls(page: Page, recorded: Lab) -> None:
     open_lab(page, recorded)
     page.keyboard.press("Tab")
     expect(page.get_by_role("link", name="Skip to the plots")).to_be_focused()
@@ -239,19 +243,19 @@ def test_the_keyboard_skips_to_the_plots_and_to_the_controls(page: Page, recorde
     expect(page.get_by_role("button", name="Pause plots")).to_be_focused()
     page.get_by_role("link", name="Skip to the controls").focus()
     page.keyboard.press("Enter")
-    expect(page.get_by_role("group", name="Controls", exact=True)).to_be_focused()
+    expect(page.get_by_role("region", name="Controls", exact=True)).to_be_focused()
 
 
 @pytest.mark.exhaustive
 @pytest.mark.parametrize("status", ["off", "run"])
-def test_a_bench_has_no_violation(bench_page: Page, still_lab: Lab, status: str) -> None:
+def test_bench_has_no_violation(bench_page: Page, still_lab: Lab, status: str) -> None:
     PatchedBench(bench_page, status=status, dead_man=True)
     open_lab(bench_page, still_lab)
     expect_no_violation(bench_page, WIDE, PHONE)
 
 
 @pytest.mark.exhaustive
-def test_a_page_that_waits_for_the_lab_has_no_violation(own_page: Page, still_lab: Lab) -> None:
+def test_page_without_connection_has_no_violation(own_page: Page, still_lab: Lab) -> None:
     own_page.route_web_socket(re.compile("/stream"), lambda silent: None)
     own_page.goto(still_lab.url)
     expect(own_page.get_by_text("Waiting for the lab")).to_be_visible()
@@ -259,6 +263,6 @@ def test_a_page_that_waits_for_the_lab_has_no_violation(own_page: Page, still_la
 
 
 @pytest.mark.exhaustive
-def test_an_exported_run_has_no_violation(page: Page, tmp_path: Path) -> None:
+def test_exported_run_has_no_violation(page: Page, tmp_path: Path) -> None:
     open_file(page, write_page(tmp_path))
     expect_no_violation(page, WIDE, PHONE)

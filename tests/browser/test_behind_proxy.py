@@ -1,4 +1,4 @@
-"""The page in Chromium behind Caddy, with TLS and a path: joined, its stream and its 3D view."""
+"""The page in Chromium behind Caddy, with TLS and a path: joining, stream and 3D view."""
 
 from collections import Counter
 from collections.abc import Iterator
@@ -19,21 +19,21 @@ LONGEST_MS = 90_000
 
 @pytest.fixture(scope="module")
 def joined_at(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[str, str]]:
-    """Where a class is behind Caddy, and its code."""
+    """The address of a class behind Caddy, and its code."""
     with run_proxied(tmp_path_factory) as proxied:
         yield f"{proxied.url}{ROOT}/", proxied.reported.code
 
 
 @pytest.fixture
 def page(browser: Browser) -> Iterator[Page]:
-    """A browser that takes the certificate that Caddy has made for itself."""
+    """A browser that accepts the self-signed certificate of Caddy."""
     context = browser.new_context(ignore_https_errors=True)
     context.add_init_script(RETURNING)
     yield context.new_page()
     context.close()
 
 
-def test_the_page_its_stream_and_the_3d_view_come_through(
+def test_page_its_stream_and_the_3d_view_work_behind_a_proxy(
     page: Page, joined_at: tuple[str, str]
 ) -> None:
     address, code = joined_at

@@ -1,4 +1,4 @@
-"""What the controls of a bench do, and what the page says of its state and its faults."""
+"""The controls of a bench, and the display of its state and its faults."""
 
 import re
 
@@ -23,7 +23,7 @@ pytestmark = pytest.mark.browser
 
 
 @pytest.mark.usefixtures("without_3d")
-def test_a_simulation_shows_no_bench_and_no_mark(kept_page: Page, still_lab: Lab) -> None:
+def test_simulation_shows_no_bench_and_no_mark(kept_page: Page, still_lab: Lab) -> None:
     open_page(kept_page, still_lab)
     expect(find_bench(kept_page)).to_have_count(0)
     expect(kept_page.get_by_text(re.compile("EMULATED|REAL BENCH"))).to_have_count(0)
@@ -34,7 +34,7 @@ MARKS = {True: "EMULATED", False: "REAL BENCH", None: "BENCH"}
 
 
 @pytest.mark.parametrize("emulated", exhaust(MARKS, [False]))
-def test_the_mark_is_in_band_view_status_bar_and_tab(
+def test_mark_is_in_banner_view_status_bar_and_tab(
     page: Page, patched: PatchedBench, emulated: bool | None
 ) -> None:
     name = MARKS[emulated]
@@ -47,14 +47,16 @@ def test_the_mark_is_in_band_view_status_bar_and_tab(
     expect(icon).not_to_have_attribute("href", "./icon.svg")
 
 
-def test_what_a_bench_refuses_is_not_offered(page: Page) -> None:
+def test_unavailable_bench_actions_are_disabled(page: Page) -> None:
     for name in ("Reset", "Step", "Pause"):
         expect(page.get_by_role("button", name=name, exact=True)).to_have_count(0)
     expect(page.get_by_role("combobox", name="Speed")).to_have_count(0)
 
 
 @pytest.mark.smoke
-def test_from_off_over_the_marks_to_a_run_and_its_stop(page: Page, patched: PatchedBench) -> None:
+def test_bench_goes_from_off_over_the_marks_to_a_run_and_its_stop(
+    page: Page, patched: PatchedBench
+) -> None:
     bench = find_bench(page)
     expect_stage(page, "Off")
     expect_enabled(page, "Arm")
@@ -92,7 +94,7 @@ def test_space_stops_a_bench_and_never_starts_it(page: Page, patched: PatchedBen
 
 
 @pytest.mark.smoke
-def test_a_quick_stop_is_latched_until_the_fault_is_cleared(
+def test_quick_stop_is_latched_until_the_fault_is_cleared(
     page: Page, patched: PatchedBench
 ) -> None:
     patched.become(status="run", homing=HOMED)
@@ -110,7 +112,7 @@ def test_a_quick_stop_is_latched_until_the_fault_is_cleared(
     assert patched.commands == ["quick-stop", "bench/clear"]
 
 
-def test_why_it_does_not_arm_is_reported_and_everything_else_is_in_the_details(
+def test_problem_that_prevents_arming_is_shown_and_the_rest_is_in_the_details(
     page: Page, patched: PatchedBench
 ) -> None:
     patched.become(problems=["Calibration is 190 days old: at most 180."])
@@ -128,14 +130,14 @@ def test_why_it_does_not_arm_is_reported_and_everything_else_is_in_the_details(
     expect(drives.get_by_text("no heartbeat")).to_be_visible()
 
 
-def test_the_status_bar_tells_the_lateness_of_a_bench(page: Page, patched: PatchedBench) -> None:
+def test_status_bar_shows_the_lateness_of_a_bench(page: Page, patched: PatchedBench) -> None:
     bar = page.get_by_role("region", name="Status", exact=True)
     expect(bar.get_by_text("late 24 µs / 71 µs · 3 skipped in this run")).to_be_visible()
     patched.change(loop=BENCH["loop"] | {"alive": False, "state": "gone"})
     expect(bar.get_by_text("ended")).to_be_visible()
 
 
-def test_on_a_real_bench_the_load_button_only_marks(
+def test_load_button_only_marks_the_load_on_a_real_bench(
     page: Page, patched: PatchedBench, still_lab: Lab
 ) -> None:
     patched.become(emulated=False, status="run", homing=HOMED)
@@ -144,7 +146,7 @@ def test_on_a_real_bench_the_load_button_only_marks(
     assert still_lab.read()["loads"][0]["load"]["kind"] == "mass"
 
 
-def test_what_takes_no_command_yet_offers_none(page: Page, patched: PatchedBench) -> None:
+def test_bench_that_takes_no_command_offers_none(page: Page, patched: PatchedBench) -> None:
     starting = BENCH["loop"] | {"alive": False, "state": "starting", "step": "opening the bus"}
     patched.become(emulated=None, loop=starting | {"starting_s": 2.0})
     bar = page.get_by_role("region", name="Status", exact=True)
@@ -161,7 +163,7 @@ def test_what_takes_no_command_yet_offers_none(page: Page, patched: PatchedBench
     expect(page.get_by_role("button", name="Fig. 4A", exact=True)).to_be_enabled()
 
 
-def test_of_a_bench_that_was_never_opened_no_user_asks_who_stopped_it(
+def test_bench_that_was_never_opened_reports_no_stop_of_the_drives(
     page: Page, patched: PatchedBench
 ) -> None:
     lost = BENCH["loop"] | {"alive": False, "state": "gone", "silent_s": 3.0}
@@ -179,7 +181,7 @@ def test_of_a_bench_that_was_never_opened_no_user_asks_who_stopped_it(
 
 
 @pytest.mark.usefixtures("without_3d")
-def test_without_a_connection_a_fault_is_the_last_that_is_known(
+def test_fault_without_a_connection_is_marked_as_the_last_known(
     bench_page: Page, still_lab: Lab
 ) -> None:
     page = bench_page
@@ -193,7 +195,7 @@ def test_without_a_connection_a_fault_is_the_last_that_is_known(
     expect(banner).not_to_contain_text("Both drives are without current")
 
 
-def test_a_fault_is_cleared_by_who_is_in_control(
+def test_fault_is_cleared_by_the_holder_of_control(
     page: Page, patched: PatchedBench, still_lab: Lab
 ) -> None:
     lab = still_lab

@@ -1,4 +1,4 @@
-"""Heat of a bench's motors on the page, which `bench_fixture` puts before a simulating lab."""
+"""Heat of a bench's motors on the page; `bench_fixture` adds the bench to a simulating lab."""
 
 import copy
 import re
@@ -15,15 +15,13 @@ pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("bench_page", "withou
 
 HEAT_FAULT = describe_fault(
     "lever_end",
-    "Motor 2 was held back by heat: End of the spiral.",
+    "Motor 2 was held back by heat: End of stiffness range.",
     tick=5728,
     values={"motor2_heat": 1.0, "motor2_commanded_nm": 5.0, "motor2_held_to_nm": 1.27},
 )
 
 
-def test_heat_that_holds_a_motor_back_is_reported_in_band_and_table(
-    page: Page, still_lab: Lab
-) -> None:
+def test_motor_limited_by_heat_is_shown_in_banner_and_table(page: Page, still_lab: Lab) -> None:
     """A fault caused by heat names the heat first, not the gains."""
     motors = copy.deepcopy(BENCH["motors"])
     bench = PatchedBench(page, status="run", homing=HOMED, fault=HEAT_FAULT)
@@ -44,9 +42,7 @@ def test_heat_that_holds_a_motor_back_is_reported_in_band_and_table(
     expect(page.get_by_text("Let the motor cool")).to_be_visible()
 
 
-def test_next_to_the_load_stands_which_motor_bears_it_for_how_long(
-    page: Page, still_lab: Lab
-) -> None:
+def test_permitted_time_of_a_load_is_shown_next_to_it(page: Page, still_lab: Lab) -> None:
     bench = PatchedBench(page, status="run", homing=HOMED)
     bench.endurance = {
         "motor": "motor2",

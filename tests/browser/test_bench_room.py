@@ -1,4 +1,4 @@
-"""A bench's messages and details leave room for the work: nothing of it is covered or cut."""
+"""A bench's messages and details leave space for the work: nothing of it is covered or cut."""
 
 import re
 from functools import partial
@@ -21,7 +21,7 @@ pytestmark = pytest.mark.browser
 
 
 @pytest.mark.parametrize("has_hold", [False, True], ids=["no switch", "dead-man's switch"])
-def test_a_fault_and_opened_details_leave_room_for_the_actuator(
+def test_fault_and_opened_details_leave_space_for_the_actuator(
     page: Page, patched: PatchedBench, has_hold: bool
 ) -> None:
     problems = [f"Motor {motor} does not say that it is supervised." for motor in (1, 2)]
@@ -39,7 +39,7 @@ def test_a_fault_and_opened_details_leave_room_for_the_actuator(
         expect(clear).to_be_in_viewport(ratio=1)
 
 
-def test_a_fault_is_reported_on_a_phone_with_the_details_opened(
+def test_fault_is_visible_on_a_phone_with_the_details_opened(
     page: Page, patched: PatchedBench
 ) -> None:
     resize(page, 390, 844)
@@ -57,10 +57,10 @@ def test_a_fault_is_reported_on_a_phone_with_the_details_opened(
     until(page, is_above_the_load)
 
 
-def test_the_work_is_seen_without_scrolling_on_a_running_bench(
+def test_view_and_plots_are_visible_without_scrolling_on_a_running_bench(
     page: Page, patched: PatchedBench
 ) -> None:
-    """Where not every plot has room, those that have are whole, and it is said how many follow."""
+    """If not every plot fits, the visible ones are complete, and the number of others is shown."""
     patched.become(status="run", homing=HOMED)
     parts = [
         find_bench(page),

@@ -1,5 +1,6 @@
-"""A class in two browsers: joined, waited for, handed over; and the instructor's page."""
+"""A class in two browsers: joining, waiting, handing over; and the instructor's page."""
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
@@ -7,6 +8,7 @@ from typing import NamedTuple
 import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 
+from svsa.teaching.course.file import list_exercise_files
 from svsa_server.access.class_keys import ClassKeys, ShownOnce
 from tests.browser.conftest import RETURNING
 from tests.browser.test_accessibility import PHONE, WIDE, expect_no_violation
@@ -33,7 +35,7 @@ def room(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Room]:
 
 @pytest.fixture
 def open_page(browser: Browser, room: Room) -> Iterator[object]:
-    """Opens a page in a browser of its own; all are closed at the end."""
+    """Open a page in a separate browser; all are closed at the end."""
     contexts = []
 
     def open_one(below: str = "/") -> Page:
@@ -62,7 +64,7 @@ def find_control(page: Page) -> Locator:
     return page.get_by_role("region", name="Status", exact=True).locator(".is-control")
 
 
-def find_banner(page: Page, words: str) -> Locator:
+def find_banner(page: Page, words: str | re.Pattern[str]) -> Locator:
     return page.get_by_role("status").filter(has_text=words)
 
 
@@ -82,6 +84,10 @@ def test_two_students_join_wait_and_hand_over(open_page, room: Room) -> None:
 
     expect(find_banner(bob, "No user is in control.")).to_be_visible()
     expect(bob.get_by_role("button", name="Fig. 4B")).to_be_disabled()
+    controls = bob.locator("#controls > .groups")
+    controls.focus()
+    expect(controls).to_be_focused()
+    expect_no_violation(bob, WIDE)
     find_control(ada).get_by_role("button", name="Request control").click()
     expect(find_control(ada)).to_contain_text("You")
     expect(ada.get_by_role("button", name="Fig. 4B")).to_be_enabled()
@@ -101,18 +107,30 @@ def test_two_students_join_wait_and_hand_over(open_page, room: Room) -> None:
     expect(ada.get_by_role("button", name="Fig. 4B")).to_be_disabled()
 
 
-def test_a_page_that_was_opened_outside_is_there_once_one_is_in(open_page, room: Room) -> None:
+def test_student_leaves_the_shared_session_for_a_private_one(open_page, room: Room) -> None:
+    page = open_page()
+    join(page, "Cem", room.reported.code)
+    page.goto(room.lab.url + "/?learn=feedback-linearization")
+    banner = find_banner(page, re.compile("is in control."))
+    banner.get_by_role("button", name="Open a private session").click()
+    page.wait_for_url(re.compile(r"\?learn=feedback-linearization&session="))
+    expect(page.get_by_text("Private session.")).to_be_visible()
+    expect(page.get_by_role("button", name="Open a private session")).to_have_count(0)
+    expect(find_control(page)).to_have_count(1)
+
+
+def test_page_opened_before_the_login_continues_after_it(open_page, room: Room) -> None:
     page = open_page("/learn")
     exercises = page.get_by_role("region", name="Exercises").get_by_role("listitem")
     page.get_by_role("button", name="I am the instructor").click()
     expect(exercises).to_have_count(0)
     page.get_by_label("Instructor token").fill(room.reported.instructor_token)
     page.get_by_role("button", name="Enter").click()
-    expect(exercises).to_have_count(7)
+    expect(exercises).to_have_count(len(list_exercise_files()))
     expect(page.get_by_text("This lab is a class")).to_have_count(0)
 
 
-def test_the_instructor_sees_who_is_here_locks_and_shows_a_code(open_page, room: Room) -> None:
+def test_instructor_sees_users_locks_and_shows_a_code(open_page, room: Room) -> None:
     student, teacher = open_page(), open_page()
     join(student, "Eve", room.reported.code)
     teacher.get_by_role("button", name="I am the instructor").click()

@@ -1,4 +1,4 @@
-"""Two laws side by side in the page, and the record button, against a real server."""
+"""Two laws in parallel on the page, and the record button, with a real server."""
 
 import re
 
@@ -37,7 +37,7 @@ def find_switch(page: Page) -> Locator:
 
 
 @pytest.mark.smoke
-def test_fl_next_to_ndobc_keeps_the_error_that_ndobc_takes_away(page: Page, still_lab: Lab) -> None:
+def test_fl_added_to_ndobc_keeps_the_error_that_ndobc_removes(page: Page, still_lab: Lab) -> None:
     open_page(page, still_lab)
     switch = find_switch(page)
     expect(switch).to_have_accessible_name("Compare with FL")
@@ -74,7 +74,7 @@ def test_fl_next_to_ndobc_keeps_the_error_that_ndobc_takes_away(page: Page, stil
 
 
 @pytest.mark.exhaustive
-def test_everything_for_the_work_is_seen_while_comparing(page: Page, still_lab: Lab) -> None:
+def test_all_main_elements_are_visible_while_comparing(page: Page, still_lab: Lab) -> None:
     open_page(page, still_lab)
     find_switch(page).click()
     parts = [
@@ -89,7 +89,7 @@ def test_everything_for_the_work_is_seen_while_comparing(page: Page, still_lab: 
 
 
 @pytest.mark.exhaustive
-def test_the_law_and_its_comparison_change_places(page: Page, still_lab: Lab) -> None:
+def test_law_and_comparison_are_exchanged(page: Page, still_lab: Lab) -> None:
     open_page(page, still_lab)
     find_switch(page).click()
     expect(find_switch(page)).to_be_checked()
@@ -98,10 +98,8 @@ def test_the_law_and_its_comparison_change_places(page: Page, still_lab: Lab) ->
     assert [lane["law"] for lane in still_lab.read()["lanes"]] == ["fl", "ndobc"]
 
 
-def test_the_same_law_twice_is_distinguished_by_what_it_is_set_to(
-    page: Page, still_lab: Lab
-) -> None:
-    """Chosen, set, taken back and removed by key; the actuator of the lane stays where it is."""
+def test_same_law_twice_is_distinguished_by_its_parameters(page: Page, still_lab: Lab) -> None:
+    """Selected, set, reset and removed by key; the actuator of the lane does not move."""
     open_page(page, still_lab)
     page.get_by_role("button", name="Add", exact=True).press("Enter")
     laws = page.get_by_role("dialog", name="Add", exact=True)
@@ -119,7 +117,7 @@ def test_the_same_law_twice_is_distinguished_by_what_it_is_set_to(
     expect(lanes.get_by_role("button", name="Remove NDOBC ωq 40", exact=True)).to_be_visible()
     legend = page.get_by_role("region", name="Position error plot", exact=True)
     expect(legend.get_by_role("button", name=re.compile("^NDOBC ωq 40"))).to_be_visible()
-    still_lab.jump(1)  # of what it was set to then there are samples to tell apart
+    still_lab.jump(1)  # the samples with these parameters, to be distinguished
     ids = [lane["id"] for lane in still_lab.read()["lanes"]]
 
     field.fill("9000")
@@ -134,7 +132,7 @@ def test_the_same_law_twice_is_distinguished_by_what_it_is_set_to(
     assert still_lab.read()["configuration"]["comparisons"] == []
 
 
-def test_a_recording_is_begun_reported_and_ended(page: Page, still_lab: Lab) -> None:
+def test_recording_is_started_displayed_and_ended(page: Page, still_lab: Lab) -> None:
     open_page(page, still_lab)
     before = get_box(page.locator(".lab"))
     page.get_by_role("button", name="Record", exact=True).click()

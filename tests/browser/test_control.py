@@ -1,4 +1,4 @@
-"""Two pages on one lab: who is in control; and the dead-man's switch of an emulator."""
+"""Two pages on one lab: the holder of control; and the dead-man's switch of an emulator."""
 
 import re
 import time
@@ -20,7 +20,7 @@ ATTEMPTS = 3
 
 @pytest.fixture
 def two_pages(context: BrowserContext, still_lab: Lab) -> tuple[Page, Page]:
-    """Two tabs of one browser, with no user in control."""
+    """Two tabs of one browser, without a holder of control."""
     wait_for_holder(still_lab, None)
     pages = context.new_page(), context.new_page()
     for page in pages:
@@ -49,7 +49,7 @@ def take(page: Page, name: str) -> None:
     expect(find_control(page)).to_contain_text("You")
 
 
-def test_one_takes_control_and_the_other_watches_pauses_and_takes_over(
+def test_second_page_watches_pauses_and_takes_over_control(
     two_pages: tuple[Page, Page], still_lab: Lab
 ) -> None:
     ada, other = two_pages
@@ -98,7 +98,7 @@ def test_one_takes_control_and_the_other_watches_pauses_and_takes_over(
 
 
 @pytest.mark.exhaustive
-def test_a_reload_keeps_control_and_closing_the_page_frees_it(
+def test_reload_keeps_control_and_closing_the_page_releases_it(
     two_pages: tuple[Page, Page], still_lab: Lab
 ) -> None:
     ada, other = two_pages
@@ -124,7 +124,7 @@ def bench(tmp_path_factory: pytest.TempPathFactory) -> Iterator[BenchLab]:
 
 
 def open_bench(context: BrowserContext, bench: BenchLab) -> Page:
-    """The page at the list of runs, which leaves a slow machine the time to be punctual."""
+    """Open the page at the list of runs, which leaves a slow machine time for the loop."""
     page = context.new_page()
     page.goto(bench.lab.url)
     bench.make_ready()
@@ -134,9 +134,9 @@ def open_bench(context: BrowserContext, bench: BenchLab) -> Page:
 
 
 def hold_through(page: Page, bench: BenchLab) -> bool:
-    """Run with D held, and on with the pointer; whether it ran until then.
+    """Run with D held, then with the pointer; return whether it ran until then.
 
-    A page that is once too busy to be heard in a whole second ends the run, as it should.
+    If the page is so busy that it sends nothing for a whole second, the run ends, as intended.
     """
     row = page.get_by_role("region", name="Dead-man's switch")
     button = row.get_by_role("button", name="Hold to run")
@@ -153,7 +153,7 @@ def hold_through(page: Page, bench: BenchLab) -> bool:
 
 
 def runs_on(page: Page, bench: BenchLab) -> bool:
-    """Whether it runs for a second and a half from now on."""
+    """Whether it runs for the next second and a half."""
     for _ in range(30):
         page.wait_for_timeout(50)
         if bench.status != "run":
@@ -171,9 +171,7 @@ def find_run(page: Page) -> Locator:
 
 
 @pytest.mark.wall_clock
-def test_the_bench_runs_only_while_the_switch_is_held(
-    context: BrowserContext, bench: BenchLab
-) -> None:
+def test_bench_runs_only_while_the_switch_is_held(context: BrowserContext, bench: BenchLab) -> None:
     page = open_bench(context, bench)
     row = page.get_by_role("region", name="Dead-man's switch")
     button = row.get_by_role("button", name="Hold to run")
@@ -199,9 +197,7 @@ def test_the_bench_runs_only_while_the_switch_is_held(
 
 @pytest.mark.exhaustive
 @pytest.mark.wall_clock
-def test_only_the_switch_of_who_is_in_control_counts(
-    context: BrowserContext, bench: BenchLab
-) -> None:
+def test_only_the_switch_of_the_holder_counts(context: BrowserContext, bench: BenchLab) -> None:
     page = open_bench(context, bench)
     client = {"SVSA-Client": "another client"}
     bench.lab.client.put(

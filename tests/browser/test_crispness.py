@@ -1,4 +1,4 @@
-"""Traces on a 2D canvas that the browser draws with its graphics pipeline: the past stays sharp."""
+"""Curves on a 2D canvas drawn by the browser's graphics pipeline: earlier samples stay sharp."""
 
 import base64
 import io
@@ -22,11 +22,11 @@ HIDE_BANNERS = """() => {
 }"""
 SCROLL_S = 2.5
 FRAMES = 40
-"""In so many the page has drawn all of its plots, however many it draws in each."""
-# Steep strokes, which a blur across widens.
+"""Number of frames in which the page has drawn all its plots, for any number per frame."""
+# Steep strokes, which blurring widens horizontally.
 STEEP = {"kind": "sine", "amplitude_rad": 0.5, "frequency_hz": 0.8}
-# Of the pixels of a trace, how many may differ by more than a quarter of the scale: where strokes
-# of a few points end, edges are smoothed a little differently.
+# The number of pixels of a curve that may differ by more than a quarter of the scale: at the ends
+# of strokes, edges are smoothed slightly differently.
 MAX_DIFFERENT = 0.03
 
 
@@ -42,7 +42,9 @@ FEATURES = """() => {
 
 @pytest.fixture(scope="module")
 def accelerated(playwright: Playwright, browser_type_launch_args: dict) -> Iterator[Browser]:
-    """A browser of its own that composes pages and canvases on a graphics card, in software."""
+    """A separate browser that composes pages and canvases on a graphics card emulated in
+    software.
+    """
     refused = {"--disable-accelerated-2d-canvas"}
     kept = [one for one in browser_type_launch_args["args"] if one not in refused]
     arguments = {"args": [*kept, "--headless=new", "--enable-gpu-rasterization"]}
@@ -62,14 +64,14 @@ def accelerated(playwright: Playwright, browser_type_launch_args: dict) -> Itera
 
 
 class HeldStream:
-    """The stream of the lab, until it is held: then the page hears nothing more."""
+    """The stream of the lab until it is held: then the page receives nothing more."""
 
     def __init__(self, page: Page) -> None:
         self._is_held = False
         page.route_web_socket("**/api/v1/sessions/lab/stream**", self._pass)
 
     def hold(self) -> None:
-        """From now on nothing is passed on."""
+        """Pass on no further messages."""
         self._is_held = True
 
     def _pass(self, socket: WebSocketRoute) -> None:
@@ -81,7 +83,7 @@ class HeldStream:
 
 
 def read_plot(page: Page) -> np.ndarray:
-    """The pixels of the torque plot, (height, width), dark 0 … light 255, axes left out."""
+    """Return the pixels of the torque plot, (height, width), dark 0 … light 255, without axes."""
     canvas = page.get_by_role("region", name="Torque plot").locator("canvas").first
     url = canvas.evaluate("one => one.toDataURL()")
     image = Image.open(io.BytesIO(base64.b64decode(url.partition(",")[2])))
@@ -92,7 +94,7 @@ def read_plot(page: Page) -> np.ndarray:
 
 
 @pytest.mark.parametrize("ratio", [1.0, 1.25, 1.5, 2.0])
-def test_what_has_scrolled_is_as_if_drawn_just_now(
+def test_scrolled_curves_equal_newly_drawn_ones(
     accelerated: Browser, lab: Lab, ratio: float
 ) -> None:
     context = accelerated.new_context(
@@ -107,7 +109,7 @@ def test_what_has_scrolled_is_as_if_drawn_just_now(
     lab.jump(22)
     lab.client.post(lab.session + "/start").raise_for_status()
     open_page(page, lab)
-    # What is said of the silent stream takes no room from the plots.
+    # The message about the silent stream takes no space from the plots.
     page.evaluate(HIDE_BANNERS)
     wait_for_samples(page, page.evaluate(LAST_TIME) + SCROLL_S)
     stream.hold()

@@ -1,4 +1,4 @@
-"""Gains: poles placed on the page, judged before they are applied, and undone."""
+"""Gains: poles placed on the page, predicted before they are applied, and undone."""
 
 import re
 
@@ -14,7 +14,7 @@ pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without
 
 @pytest.fixture
 def panel(page: Page, still_lab: Lab) -> Locator:
-    """With all that it asks for: nothing of it moves after that on its own."""
+    """The panel with all its predictions: afterwards nothing in it moves."""
     come_back(page, still_lab)
     open_page(page, still_lab)
     page.get_by_role("button", name="Place poles").click()
@@ -42,7 +42,7 @@ def real_parts(lab: Lab, group: str = "position") -> list[float]:
     return [root["re"] for root in gains[f"{group}_roots_rad_per_s"]]
 
 
-def test_undo_takes_back_load_and_law(page: Page, still_lab: Lab) -> None:
+def test_undo_restores_load_and_law(page: Page, still_lab: Lab) -> None:
     come_back(page, still_lab)
     open_page(page, still_lab)
     undo = page.locator("#controls").get_by_role("button", name=re.compile("^Undo"))
@@ -59,7 +59,7 @@ def test_undo_takes_back_load_and_law(page: Page, still_lab: Lab) -> None:
     until(page, lambda: still_lab.read()["configuration"]["law"] == law)
 
 
-def test_a_pole_is_dragged_judged_applied_and_undone_step_by_step(
+def test_pole_is_dragged_predicted_applied_and_undone_step_by_step(
     page: Page, still_lab: Lab, panel: Locator
 ) -> None:
     expect(panel.get_by_role("button", name="Apply")).to_be_disabled()
@@ -83,7 +83,7 @@ def test_a_pole_is_dragged_judged_applied_and_undone_step_by_step(
 
 
 @pytest.mark.smoke
-def test_an_unstable_choice_says_why_and_cannot_be_applied(page: Page, panel: Locator) -> None:
+def test_unstable_poles_have_a_reason_and_cannot_be_applied(page: Page, panel: Locator) -> None:
     drag(page, panel.get_by_role("slider", name="Position pole 4 of 4"), 100, -60)
     verdict = panel.get_by_role("status", name="Verdict: Unsuitable")
     expect(verdict).to_contain_text("right of the imaginary axis")
@@ -93,7 +93,7 @@ def test_an_unstable_choice_says_why_and_cannot_be_applied(page: Page, panel: Lo
 
 
 @pytest.mark.exhaustive
-def test_a_map_fills(panel: Locator) -> None:
+def test_map_is_completed(panel: Locator) -> None:
     panel.get_by_role("button", name="Fill the map").click()
     reported = panel.get_by_text("21.3 % of 961 initial states converge, on the rig")
     expect(reported).to_be_visible(timeout=WORKER_MS)
@@ -107,7 +107,7 @@ def test_too_fast_poles_are_predicted_to_end_in_a_fault(panel: Locator) -> None:
 
 
 @pytest.mark.exhaustive
-def test_a_pole_is_moved_with_the_keyboard_and_the_pair_goes_together(panel: Locator) -> None:
+def test_pole_pair_is_moved_with_the_keyboard(panel: Locator) -> None:
     pole = panel.get_by_role("slider", name="Position pole 1 of 4")
     pole.focus()
     pole.press("Shift+ArrowLeft")
@@ -122,7 +122,7 @@ def test_a_pole_is_moved_with_the_keyboard_and_the_pair_goes_together(panel: Loc
 
 
 @pytest.mark.exhaustive
-def test_the_observer_is_set_next_to_the_poles(still_lab: Lab, panel: Locator) -> None:
+def test_observer_is_set_next_to_the_poles(still_lab: Lab, panel: Locator) -> None:
     panel.get_by_role("spinbutton", name="Observer bandwidth").fill("40")
     panel.get_by_role("button", name=re.compile("^Apply")).click()
     expect(panel.get_by_role("button", name="Undo, 1 step kept")).to_be_visible()
@@ -130,7 +130,7 @@ def test_the_observer_is_set_next_to_the_poles(still_lab: Lab, panel: Locator) -
 
 
 @pytest.mark.exhaustive
-def test_the_panel_fits_the_screen(page: Page, panel: Locator) -> None:
+def test_panel_fits_the_screen(page: Page, panel: Locator) -> None:
     def is_within() -> bool:
         box = get_box(panel)
         return box["x"] >= 0 and box["y"] + box["height"] <= 720
@@ -144,7 +144,7 @@ def test_the_panel_fits_the_screen(page: Page, panel: Locator) -> None:
 
 @pytest.mark.exhaustive
 @pytest.mark.parametrize("width", [390, 820, 1280])
-def test_what_is_opened_over_the_lab_leaves_the_transport_in_reach(
+def test_opened_panel_leaves_the_transport_controls_accessible(
     page: Page, still_lab: Lab, width: int
 ) -> None:
     page.set_viewport_size({"width": width, "height": 844})
@@ -155,7 +155,7 @@ def test_what_is_opened_over_the_lab_leaves_the_transport_in_reach(
     assert transport["y"] + transport["height"] <= below
 
 
-def test_an_unstable_design_fails_in_a_simulation_of_its_own(
+def test_unstable_design_faults_in_a_private_simulation(
     page: Page, still_lab: Lab, panel: Locator
 ) -> None:
     panel.get_by_role("spinbutton", name="Observer bandwidth β").fill("900")

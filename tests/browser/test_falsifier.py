@@ -1,4 +1,4 @@
-"""The page of the falsifier: searched, kept, put to other laws and seen in 3D, by keyboard."""
+"""The page of the falsifier: search, save, run other laws and view in 3D, by keyboard."""
 
 import re
 
@@ -13,7 +13,7 @@ pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without
 
 
 def search(page: Page, lab: Lab) -> Locator:
-    """By keyboard from the lab on, until it ends; the laws that were put under what was found."""
+    """Search by keyboard to the end; return the laws that ran in the result."""
     page.goto(lab.url)
     go_to_page(page, "Falsifier")
     page.get_by_label("Failure criterion").select_option(label="peak error")
@@ -32,12 +32,12 @@ def search(page: Page, lab: Lab) -> Locator:
 
 
 @pytest.mark.exhaustive
-def test_what_was_found_has_no_violation(page: Page, still_lab: Lab) -> None:
+def test_result_has_no_violation(page: Page, still_lab: Lab) -> None:
     search(page, still_lab)
     expect_no_violation(page, WIDE, TABLET, PHONE)
 
 
-def test_a_load_is_searched_kept_put_to_a_law_and_seen(page: Page, still_lab: Lab) -> None:
+def test_load_is_searched_saved_run_with_a_law_and_shown(page: Page, still_lab: Lab) -> None:
     laws = search(page, still_lab)
     page.get_by_label("Save as").fill("mine")
     page.get_by_label("Save as").press("Enter")
@@ -58,7 +58,7 @@ def test_a_load_is_searched_kept_put_to_a_law_and_seen(page: Page, still_lab: La
     assert "mine" in [one["name"] for one in kept]
 
 
-def test_a_wrong_bound_is_reported_with_its_name_and_nothing_is_begun(
+def test_invalid_bound_is_reported_by_name_and_nothing_is_started(
     page: Page, still_lab: Lab
 ) -> None:
     page.goto(still_lab.url + "/?falsifier=all")

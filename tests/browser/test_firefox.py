@@ -21,7 +21,7 @@ HAS_SAMPLES = """window.svsa?.channels().includes("position_rad") &&
     window.svsa.series("position_rad").time.at(-1) > 2.5"""
 SAMPLED = """[["position_rad", 1], ["position_reference_rad", 1], ["position_rad", 2]]
     .map(([channel, lane]) => window.svsa.series(channel, lane).value.at(-1))"""
-# Pixels of curves in the plot that has fewest: only curves have a color, grid and text are grey.
+# Pixels of curves in the plot with the fewest: only curves have a color, grid and text are grey.
 LEAST_DRAWN = """Math.min(...[...document.querySelectorAll(".plot canvas")].map((canvas) => {
     const { width, height } = canvas;
     const { data } = canvas.getContext("2d").getImageData(0, 0, width, height);
@@ -42,7 +42,7 @@ CAMERA_X = 'document.querySelector(".view iframe").contentWindow.__viserMutable.
 
 @pytest.fixture(scope="module")
 def firefox() -> Iterator[Firefox]:
-    """With WebGL, by software."""
+    """With WebGL in software."""
     path = find_firefox()
     with run_display() as display, run_firefox(path, display) as one:
         yield one
@@ -71,7 +71,7 @@ def read_sampled(firefox: Firefox) -> dict[str, float]:
     return dict(zip(PARTS, map(math.degrees, firefox.evaluate(SAMPLED)), strict=True))
 
 
-def test_layout_and_plots_are_whole_and_3d_has_the_poses(firefox: Firefox, lab: Lab) -> None:
+def test_layout_and_plots_are_complete_and_3d_has_the_poses(firefox: Firefox, lab: Lab) -> None:
     open_lab(firefox, lab)
     firefox.wait_for(VIEW_IS_DRAWN)
     firefox.evaluate(PRESS_FRONT)
@@ -82,10 +82,10 @@ def test_layout_and_plots_are_whole_and_3d_has_the_poses(firefox: Firefox, lab: 
         f"""Object.entries(({ANGLES_3D})({PARTS!r}))
             .every(([name, angle]) => Math.abs(angle - ({sampled!r})[name]) < 1)"""
     )
-    expect_whole(firefox)
+    assert_complete(firefox)
 
 
-def test_without_webgl_it_is_stated_and_the_poses_are_drawn_in_2d(
+def test_missing_webgl_is_stated_and_the_poses_are_drawn_in_2d(
     flat_firefox: Firefox, lab: Lab
 ) -> None:
     firefox = flat_firefox
@@ -96,11 +96,11 @@ def test_without_webgl_it_is_stated_and_the_poses_are_drawn_in_2d(
     sampled = read_sampled(firefox)
     assert abs(sampled["q of FL"] - sampled["q"]) > 5
     assert firefox.evaluate(f"({ANGLES_2D})()") == pytest.approx(sampled, abs=0.1)
-    expect_whole(firefox)
+    assert_complete(firefox)
 
 
-def expect_whole(firefox: Firefox) -> None:
-    """No fault of the layout at any size, and curves in every plot."""
+def assert_complete(firefox: Firefox) -> None:
+    """The layout has no problem at any size, and every plot has curves."""
     firefox.wait_for(f"{LEAST_DRAWN} > 100")
     problems = []
     for width, height in SIZES:

@@ -13,10 +13,10 @@ pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without
 
 TUTORIAL = (ROOT / "docs/tutorials/browser.md").read_text(encoding="utf-8")
 NAMED = ("Hang 3 kg", "Compare with FL", "Last event", "Record", "Runs")
-"""The controls that the tutorial names; each is pressed below."""
+"""The controls named in the tutorial; each is pressed below."""
 
 
-def test_the_tutorial_in_the_browser_can_be_followed(page: Page, lab: Lab) -> None:
+def test_browser_tutorial_can_be_followed(page: Page, lab: Lab) -> None:
     for name in NAMED:
         assert f"*{name}*" in TUTORIAL
     lab.load_figure("4a", "ndobc", load=False)

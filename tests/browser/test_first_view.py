@@ -1,4 +1,4 @@
-"""What a user sees at the first visit: few controls, and a switch to all of them."""
+"""The first visit of a user: few controls, and a switch to all of them."""
 
 import re
 
@@ -17,7 +17,7 @@ pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without
 MOST_BASIC = 29
 LEAST_ALL = 80
 
-# Everything that takes the pointer or the focus and lies in the window.
+# All visible elements of the window that take the pointer or the focus.
 COUNT_CONTROLS = """() => {
     const controls = "a[href], button, input, select, textarea, summary, [tabindex='0']";
     return [...document.querySelectorAll(controls)].filter((one) => {
@@ -30,16 +30,14 @@ COUNT_CONTROLS = """() => {
 
 
 def open_first(page: Page, lab: Lab) -> None:
-    """As a user who has only ended the tour."""
+    """As a user who has only finished the tour."""
     come_back(page, lab)
     page.evaluate("localStorage.removeItem('svsa.controls')")
     page.goto(lab.url)
     wait_for_samples(page)
 
 
-def test_the_first_view_has_few_controls_and_the_switch_to_all_is_remembered(
-    page: Page, lab: Lab
-) -> None:
+def test_first_view_has_few_controls_and_remembers_the_switch_to_all(page: Page, lab: Lab) -> None:
     page.set_viewport_size({"width": 1440, "height": 900})
     lab.client.post(lab.session + "/start").raise_for_status()
     open_first(page, lab)
@@ -87,7 +85,7 @@ def test_step_and_speed_are_shown_while_the_session_is_paused(page: Page, lab: L
     expect(step).to_be_visible()
 
 
-def test_effects_and_loads_that_act_are_never_hidden(page: Page, lab: Lab) -> None:
+def test_active_effects_and_loads_are_never_hidden(page: Page, lab: Lab) -> None:
     """They explain an error that the controller alone does not."""
     load = {"kind": "pulse", "torque_nm": [1.0, 0.0, 0.0], "start_s": 9.0, "duration_s": 1.0}
     lab.client.post(lab.session + "/loads", json=load).raise_for_status()
@@ -107,13 +105,13 @@ def test_identification_opens_from_all_controls(page: Page, lab: Lab) -> None:
     expect(panel).to_be_hidden()
 
 
-def test_the_first_view_is_whole_at_each_size(page: Page, lab: Lab) -> None:
+def test_first_view_is_complete_at_each_size(page: Page, lab: Lab) -> None:
     open_first(page, lab)
     problems = measure(page, FIND_PROBLEMS, SIZES, LEAST_PLOT_PX["simulation"])
     assert not problems, "\n".join(problems)
 
 
-def test_the_controller_takes_the_width_of_its_panel_on_a_tablet(page: Page, lab: Lab) -> None:
+def test_controller_uses_the_width_of_its_panel_on_a_tablet(page: Page, lab: Lab) -> None:
     page.set_viewport_size({"width": 820, "height": 1180})
     open_first(page, lab)
     panel, law = get_box(page.locator("#controls")), get_box(page.locator(".compare"))
@@ -125,7 +123,7 @@ BARS_PX = """() => [".topbar", ".load-place", ".statusbar"]
     .reduce((sum, one) => sum + document.querySelector(one).offsetHeight, 0)"""
 
 
-def test_tabs_stay_and_the_bars_take_less_than_a_quarter_of_a_phone(page: Page, lab: Lab) -> None:
+def test_tabs_stay_and_bars_take_less_than_a_quarter_of_a_phone(page: Page, lab: Lab) -> None:
     open_first(page, lab)
     tabs = page.get_by_role("navigation", name="Pages")
     for is_full in (False, True):
@@ -140,23 +138,23 @@ def test_tabs_stay_and_the_bars_take_less_than_a_quarter_of_a_phone(page: Page, 
         page.wait_for_function(f"() => ({BARS_PX})() < innerHeight / 4")
 
 
-def test_the_first_view_has_no_violation(page: Page, lab: Lab) -> None:
+def test_first_view_has_no_violation(page: Page, lab: Lab) -> None:
     open_first(page, lab)
     expect_no_violation(page, WIDE, PHONE)
 
 
-def test_a_page_that_cannot_be_fetched_is_stated(page: Page, lab: Lab) -> None:
-    """The pages of the evaluation are fetched when the first of them is opened."""
+def test_page_that_cannot_be_loaded_is_reported(page: Page, lab: Lab) -> None:
+    """The pages of the evaluation are loaded when the first of them is opened."""
     open_first(page, lab)
-    page.route("**/assets/farther-*.js", lambda route: route.abort())
+    page.route("**/assets/otherpages-*.js", lambda route: route.abort())
     go_to_page(page, "Evaluation")
     expect(page.get_by_role("main")).to_have_text("Page not loaded. Reload the lab.")
-    page.unroute("**/assets/farther-*.js")
+    page.unroute("**/assets/otherpages-*.js")
     page.reload()
     expect(page.get_by_role("main", name="Ranking")).to_be_visible()
 
 
-# Of the canvas of the first plot, the color that most pixels have.
+# The most frequent pixel color of the first plot's canvas.
 COLOR = """() => {
     const canvas = document.querySelector(".plot canvas");
     const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);

@@ -1,4 +1,4 @@
-"""The page Grades: graded, and looked at by criterion, by keyboard alone."""
+"""The page Grades: grading, and the view by criterion, by keyboard alone."""
 
 import re
 import shutil
@@ -19,7 +19,7 @@ pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without
 
 @pytest.fixture
 def lab_with_submissions(still_lab: Lab) -> Iterator[Lab]:
-    """Two students have submitted what is not done."""
+    """Two students have submitted incomplete work."""
     store = ProgressStore(still_lab.data)
     submitted = [submit(store, "p-1", "Ada"), submit(store, "p-2", "Bob")]
     yield still_lab
@@ -29,7 +29,7 @@ def lab_with_submissions(still_lab: Lab) -> Iterator[Lab]:
 
 
 def grade(page: Page, lab: Lab) -> Locator:
-    """What was submitted, by keyboard; the table, of which Ada's points are pressed."""
+    """Grade the submissions by keyboard, and open Ada's points in the table."""
     open_page(page, lab)
     go_to_page(page, "Grades")
     table = page.get_by_role("region", name="Points, a student a row")
@@ -47,7 +47,7 @@ def grade(page: Page, lab: Lab) -> Locator:
     return table
 
 
-def test_what_was_submitted_is_graded_and_seen_by_criterion(
+def test_submissions_are_graded_and_shown_by_criterion(
     page: Page, lab_with_submissions: Lab
 ) -> None:
     table = grade(page, lab_with_submissions)

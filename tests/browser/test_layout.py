@@ -1,4 +1,4 @@
-"""The page at every size of screen: nothing covers, cuts or runs out of anything."""
+"""The page at every screen size: no element is covered, cut or outside of its panel."""
 
 import re
 
@@ -45,9 +45,7 @@ COUNT_ROWS = """() => {
 }"""
 
 
-def test_the_top_bar_has_few_rows_and_no_more_while_it_records(
-    visited: Page, still_lab: Lab
-) -> None:
+def test_top_bar_has_few_rows_also_during_a_recording(visited: Page, still_lab: Lab) -> None:
     recording = still_lab.session + "/recording"
     record = visited.get_by_role("button", name=re.compile("^Record"))
     expect(record).to_have_text("Record")
@@ -68,7 +66,7 @@ def test_the_top_bar_has_few_rows_and_no_more_while_it_records(
 
 
 @pytest.mark.parametrize("visited", ["simulation"], indirect=True)
-def test_four_controllers_and_the_last_event_are_read_whole_on_a_phone(
+def test_four_controllers_and_the_last_event_are_readable_on_a_phone(
     visited: Page, still_lab: Lab
 ) -> None:
     resize(visited, 390, 844)
@@ -89,7 +87,7 @@ def test_four_controllers_and_the_last_event_are_read_whole_on_a_phone(
     zoom.click()
 
 
-# What a bench and its twin are called, and the longest values of their table.
+# The names of a bench and its twin, and the longest values of their table.
 NAME_LIKE_A_BENCH = """() => {
     const rows = document.querySelectorAll(".comparison tbody tr");
     rows.forEach((row, index) => {
@@ -102,7 +100,7 @@ NAME_LIKE_A_BENCH = """() => {
 
 
 @pytest.mark.parametrize("visited", ["running bench"], indirect=True)
-def test_the_table_of_a_bench_takes_no_room_from_its_plots(visited: Page, still_lab: Lab) -> None:
+def test_table_of_a_bench_takes_no_space_from_its_plots(visited: Page, still_lab: Lab) -> None:
     resize(visited, 1280, 720)
     alone = get_box(visited.locator(".plots"))["width"]
     compare(visited, still_lab, is_on=True)

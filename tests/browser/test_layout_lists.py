@@ -1,4 +1,4 @@
-"""Plots and controls that have no room are reported at the edge, and those in sight are whole."""
+"""Plots and controls without space are listed at the edge, and visible ones are complete."""
 
 import re
 
@@ -15,7 +15,7 @@ from tests.lab import Lab
 
 pytestmark = pytest.mark.browser
 
-# The list finds how high its plots are after each change of its own height.
+# The list computes the height of its plots after each change of its own height.
 WHOLE_PLOTS = """() => {
     const foot = document.querySelector(".plots-foot").getBoundingClientRect().top;
     return [...document.querySelectorAll(".plots-stage > .plot")]
@@ -24,7 +24,7 @@ WHOLE_PLOTS = """() => {
 }"""
 
 
-def test_a_low_list_of_plots_shows_whole_ones_and_says_how_many_are_below(visited: Page) -> None:
+def test_low_list_of_plots_shows_complete_ones_and_counts_those_below(visited: Page) -> None:
     resize(visited, 1280, 600)
     visited.locator(".plots-scroll").evaluate("list => list.scrollTo(0, 0)")
     visited.get_by_role("button", name="Cursors").click()
@@ -62,10 +62,10 @@ def test_cursors_leave_all_plots_in_view(visited: Page) -> None:
 
 
 @pytest.mark.parametrize("visited", ["simulation"], indirect=True)
-def test_a_legend_of_many_controllers_has_one_row_and_plots_stay_whole(
+def test_legend_of_many_controllers_has_one_row_and_plots_stay_complete(
     visited: Page, still_lab: Lab
 ) -> None:
-    """Controllers that followed one another, each with its entry in every legend."""
+    """Successive controllers, each with its entry in every legend."""
     resize(visited, 1280, 900)
     still_lab.jump(1)
     for bandwidth in (40, 50, 70, 80):
@@ -85,14 +85,14 @@ def test_a_legend_of_many_controllers_has_one_row_and_plots_stay_whole(
     until(visited, are_whole_below_one_row)
 
 
-# What a recording of before has left says so for 20 s.
+# A notice of an earlier recording is shown for 20 s.
 DISMISS_NOTICES = """() => {
     for (const one of document.querySelectorAll(".banner.is-news button.quiet")) one.click();
 }"""
 
 
 @pytest.mark.parametrize("visited", ["running bench", "bench to be homed"], indirect=True)
-def test_opened_details_of_a_bench_leave_room_for_the_actuator_and_two_plots(
+def test_opened_details_of_a_bench_leave_space_for_the_actuator_and_two_plots(
     visited: Page, least_plot_px: int
 ) -> None:
     resize(visited, 1280, 720)
@@ -113,17 +113,17 @@ def test_opened_details_of_a_bench_leave_room_for_the_actuator_and_two_plots(
 
 
 @pytest.mark.parametrize("visited", ["simulation"], indirect=True)
-def test_what_is_refused_at_the_edge_of_the_panel_is_brought_into_sight(
+def test_rejection_at_the_edge_of_the_panel_is_scrolled_into_view(
     visited: Page, still_lab: Lab
 ) -> None:
     resize(visited, 1280, 720)
     still_lab.client.post(still_lab.session + "/loads", json={"kind": "paper"}).raise_for_status()
-    # No click: once the end of the panel is in sight no group is named below it, and all moves.
+    # No click: once the end of the panel is in view no group is named below it, and all moves.
     visited.get_by_role("spinbutton", name="Bandwidth β").fill("-1")
     visited.get_by_role("spinbutton", name="Bandwidth β").press("Enter")
     refused = visited.get_by_text("Bandwidth β, Link: −1 rad/s is out of range")
     expect(refused).to_be_in_viewport(ratio=1)
-    groups = visited.get_by_role("group", name="Controls", exact=True).locator(".groups")
+    groups = visited.get_by_role("region", name="Controls", exact=True).locator(".groups")
 
     def is_above_the_edge() -> bool:
         edge, box = get_box(groups), get_box(refused)
@@ -132,10 +132,10 @@ def test_what_is_refused_at_the_edge_of_the_panel_is_brought_into_sight(
     until(visited, is_above_the_edge)
 
 
-def test_every_group_of_controls_is_in_sight_or_named_at_the_edge(visited: Page) -> None:
+def test_every_group_of_controls_is_visible_or_named_at_the_edge(visited: Page) -> None:
     resize(visited, 1280, 720)
     visited.evaluate("for (const fold of document.querySelectorAll('details')) fold.open = true")
-    panel = visited.get_by_role("group", name="Controls", exact=True)
+    panel = visited.get_by_role("region", name="Controls", exact=True)
     panel.locator(".groups").evaluate("list => list.scrollTo(0, 0)")
     below = visited.get_by_role("navigation", name="Controls below")
     titles = panel.get_by_role("heading", level=2)

@@ -1,4 +1,4 @@
-"""What opens over the page stays on the screen and at its button."""
+"""Popups stay on the screen and at their button."""
 
 import pytest
 from playwright.sync_api import Page, expect
@@ -11,13 +11,13 @@ pytestmark = pytest.mark.browser
 
 
 @pytest.mark.parametrize("visited", ["simulation"], indirect=True)
-def test_what_opens_stays_on_the_screen(visited: Page) -> None:
+def test_popups_stay_on_the_screen(visited: Page) -> None:
     problems = measure(visited, FIND_POPUP_PROBLEMS, SIZES[::2])
     assert not problems, "\n".join(problems)
 
 
 @pytest.mark.parametrize("visited", ["simulation"], indirect=True)
-def test_what_is_open_follows_its_button_where_the_window_changes(visited: Page) -> None:
+def test_popup_follows_its_button_when_the_window_changes(visited: Page) -> None:
     resize(visited, 1440, 900)
     visited.get_by_role("button", name="Plots", exact=True).click()
     opened = visited.locator(".popup:popover-open")

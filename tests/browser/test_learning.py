@@ -1,4 +1,4 @@
-"""What helps to understand: the tour, the equations, and the paper's claims checked."""
+"""Learning aids: the tour, the equations, and the check of the paper's claims."""
 
 import re
 
@@ -25,7 +25,7 @@ def list_sessions(lab: Lab) -> list[str]:
     return [state["session"] for state in lab.client.get("/api/v1/sessions").json()]
 
 
-def test_the_tour_is_offered_once_goes_by_keyboard_and_is_taken_again(page: Page, lab: Lab) -> None:
+def test_tour_is_offered_once_usable_by_keyboard_and_repeatable(page: Page, lab: Lab) -> None:
     open_page(page, lab)
     tour = page.get_by_role("region", name="Tour of the lab")
     expect(tour.get_by_role("heading")).to_have_text("Welcome to the lab")
@@ -48,7 +48,7 @@ def test_the_tour_is_offered_once_goes_by_keyboard_and_is_taken_again(page: Page
     expect(tour).to_be_hidden()
 
 
-def test_the_tour_leaves_load_and_lanes_as_they_were(page: Page, lab: Lab) -> None:
+def test_tour_restores_load_and_lanes(page: Page, lab: Lab) -> None:
     """Of a session with a load and a comparison lane: the tour removes both, then restores them."""
     lab.client.post(lab.session + "/loads", json={"kind": "paper"}).raise_for_status()
     comparisons = {"comparisons": [{"law": "pd"}]}
@@ -73,14 +73,14 @@ def test_the_tour_leaves_load_and_lanes_as_they_were(page: Page, lab: Lab) -> No
 
 
 @pytest.mark.exhaustive
-def test_the_tour_is_skipped(page: Page, lab: Lab) -> None:
+def test_tour_is_skipped(page: Page, lab: Lab) -> None:
     open_page(page, lab)
     tour = page.get_by_role("region", name="Tour of the lab")
     tour.get_by_role("button", name="Skip").click()
     expect(tour).to_be_hidden()
 
 
-def test_an_equation_stands_behind_its_symbol_with_the_papers_error(page: Page, lab: Lab) -> None:
+def test_equation_opens_from_its_symbol_with_the_error_of_the_paper(page: Page, lab: Lab) -> None:
     open_page(page, lab)
     name = "Equation of the control laws"
     page.get_by_role("button", name=name).click()
@@ -96,7 +96,7 @@ def test_an_equation_stands_behind_its_symbol_with_the_papers_error(page: Page, 
 
 
 @pytest.mark.parametrize("figure", exhaust(["4A", "4B", "5"], ["4A"]))
-def test_a_figure_is_run_apart_and_laid_next_to_the_papers_claim(
+def test_figure_runs_separately_and_is_compared_with_the_claim(
     page: Page, lab: Lab, figure: str
 ) -> None:
     before = lab.read()["run_number"]

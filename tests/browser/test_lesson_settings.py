@@ -1,4 +1,4 @@
-"""Of an exercise nothing is left in the session: the lab has the settings from before it."""
+"""After an exercise the session has its earlier settings."""
 
 from collections.abc import Iterator
 
@@ -23,16 +23,14 @@ def own_lab() -> Iterator[Lab]:
 
 
 def set_up_exact_model(lab: Lab) -> dict:
-    """The step that makes the model exact; what the session was set to before."""
+    """Set up the step that makes the model exact; return the earlier settings of the session."""
     before = lab.restart() or lab.read()
     wanted = {"from": "exercise", "exercise": EXERCISE, "step": "exact-model"}
     lab.client.post(lab.session + "/experiment", json=wanted).raise_for_status()
     return before["configuration"]
 
 
-def test_the_lab_is_entered_with_the_settings_from_before_the_exercise(
-    page: Page, own_lab: Lab
-) -> None:
+def test_lab_is_opened_with_the_settings_from_before_the_exercise(page: Page, own_lab: Lab) -> None:
     before = set_up_exact_model(own_lab)
     page.goto(own_lab.url + "/?learn=" + EXERCISE + "/exact-model")
     expect(page.get_by_role("button", name="Run again")).to_be_enabled()
@@ -42,10 +40,10 @@ def test_the_lab_is_entered_with_the_settings_from_before_the_exercise(
     assert own_lab.read()["configuration"] == before
 
 
-def test_a_session_that_an_exercise_set_up_offers_the_earlier_settings(
+def test_session_set_up_by_an_exercise_offers_the_earlier_settings(
     page: Page, own_lab: Lab
 ) -> None:
-    """In a browser that opens the lab later, which changes nothing without a press."""
+    """In a browser that opens the lab later, which changes nothing without a click."""
     before = set_up_exact_model(own_lab)
     page.goto(own_lab.url)
     banner = page.get_by_text("This session has the settings of an exercise.")

@@ -1,4 +1,4 @@
-"""A page through what happens to it: a second page, a reload, a server that goes and comes."""
+"""A page during a second page, a reload, and a restart of the server."""
 
 import re
 from pathlib import Path
@@ -23,7 +23,7 @@ IS_WIDE = "width => document.documentElement.scrollWidth === width"
 
 
 @pytest.mark.usefixtures("without_3d", "still")
-def test_two_pages_show_one_session_and_keep_their_own_look(
+def test_two_pages_show_one_session_with_their_own_layout(
     context: BrowserContext, lab: Lab
 ) -> None:
     first, second = context.new_page(), context.new_page()
@@ -51,7 +51,7 @@ def test_two_pages_show_one_session_and_keep_their_own_look(
 
 @pytest.mark.smoke
 @pytest.mark.usefixtures("kept_page", "without_3d", "still")
-def test_a_reload_in_the_middle_of_a_run_loses_nothing(page: Page, lab: Lab) -> None:
+def test_reload_during_a_run_loses_nothing(page: Page, lab: Lab) -> None:
     open_page(page, lab)
     lab.jump(6)
     choose(page.get_by_role("radio", name="60 s"))
@@ -73,9 +73,7 @@ def test_a_reload_in_the_middle_of_a_run_loses_nothing(page: Page, lab: Lab) -> 
 
 
 @pytest.mark.usefixtures("kept_page", "without_3d")
-def test_a_killed_server_that_comes_back_is_found_with_what_it_had_recorded(
-    page: Page, tmp_path: Path
-) -> None:
+def test_restarted_server_is_found_with_its_recordings(page: Page, tmp_path: Path) -> None:
     with run_lab(data=str(tmp_path)) as lab:
         port = int(lab.url.rpartition(":")[2])
         open_page(page, lab)
@@ -118,7 +116,7 @@ def test_a_killed_server_that_comes_back_is_found_with_what_it_had_recorded(
 
 
 @pytest.mark.usefixtures("kept_page", "without_3d")
-def test_an_ended_private_session_says_so_and_leads_back(page: Page, lab: Lab) -> None:
+def test_ended_private_session_is_reported_with_a_link_back(page: Page, lab: Lab) -> None:
     name = lab.client.post("/api/v1/sessions", json={}).raise_for_status().json()["session"]
     page.goto(f"{lab.url}/?session={name}")
     bar = page.get_by_role("region", name="Status", exact=True)

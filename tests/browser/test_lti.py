@@ -1,4 +1,4 @@
-"""A learning platform of another site launches a student, in a real browser with its cookies."""
+"""A learning platform on another site launches a student, in a real browser with its cookies."""
 
 import re
 from collections.abc import Iterator
@@ -15,7 +15,7 @@ pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("without_3d")]
 
 @pytest.fixture(scope="module")
 def platform(tmp_path_factory: pytest.TempPathFactory) -> Iterator[LearningPlatform]:
-    """On localhost, which to a browser is another site than the lab's 127.0.0.1."""
+    """On localhost, which is another site for a browser than the lab's 127.0.0.1."""
     folder: Path = tmp_path_factory.mktemp("class")
     with run_platform("localhost") as platform:
         settings = str(platform.write_settings(folder))
@@ -26,12 +26,12 @@ def platform(tmp_path_factory: pytest.TempPathFactory) -> Iterator[LearningPlatf
 
 def expect_student_at_exercise(page: Page) -> None:
     expect(page).to_have_url(re.compile(r"\?learn=mechanism"))
-    expect(page.get_by_role("heading", name="A lever that makes stiffness")).to_be_visible()
+    expect(page.get_by_role("heading", name="The lever and the stiffness")).to_be_visible()
     expect(page.get_by_role("link", name="Next →")).to_be_visible()
     assert page.evaluate("fetch('api/v1/access').then(a => a.json())")["name"] == "Ada"
 
 
-def test_a_link_of_the_platform_leads_to_the_exercise_signed_in(
+def test_link_of_the_platform_leads_to_the_exercise_logged_in(
     page: Page, platform: LearningPlatform
 ) -> None:
     page.goto(f"{platform.url}/course")
@@ -44,7 +44,7 @@ def test_a_link_of_the_platform_leads_to_the_exercise_signed_in(
 
 
 @pytest.mark.exhaustive
-def test_in_a_frame_of_the_platform_the_lab_offers_a_window_of_its_own(
+def test_frame_of_the_platform_offers_a_separate_window(
     page: Page, platform: LearningPlatform
 ) -> None:
     page.goto(f"{platform.url}/course")

@@ -1,4 +1,4 @@
-"""Two writers of one setting: the page says what the other has set, and sends its own again."""
+"""Two writers of one setting: the page shows the other value, and can send its own again."""
 
 import re
 
@@ -12,9 +12,7 @@ pytestmark = pytest.mark.browser
 
 
 @pytest.mark.usefixtures("kept_page", "without_3d", "still")
-def test_what_a_script_sets_while_a_user_types_is_reported_and_not_undone(
-    page: Page, lab: Lab
-) -> None:
+def test_change_by_a_script_during_typing_is_reported_and_kept(page: Page, lab: Lab) -> None:
     open_page(page, lab)
     motion = page.get_by_role("region", name="Motion", exact=True)
     field = motion.get_by_role("spinbutton", name=re.compile("Frequency"))
@@ -35,7 +33,7 @@ def test_what_a_script_sets_while_a_user_types_is_reported_and_not_undone(
 
 
 @pytest.mark.usefixtures("kept_page", "without_3d", "still")
-def test_set_mine_all_the_same_leaves_what_the_other_set_next_to_it(page: Page, lab: Lab) -> None:
+def test_forced_value_keeps_the_other_changes(page: Page, lab: Lab) -> None:
     open_page(page, lab)
     motion = page.get_by_role("region", name="Motion", exact=True)
     field = motion.get_by_role("spinbutton", name=re.compile("Frequency"))

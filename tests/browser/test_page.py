@@ -1,4 +1,4 @@
-"""The page in a real browser against a real server, by role and label."""
+"""The page in a real browser with a real server, by role and label."""
 
 import math
 import re
@@ -13,16 +13,16 @@ pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page")]
 
 PATIENCE_MS = 60_000
 WORKER_MS = 300_000
-"""A worker begins, and works with less priority than whatever else is under way."""
+"""A worker starts, with a lower priority than all other work."""
 ONE_DEGREE = 0.01745
 KNOWN_LAW = re.compile("^Control law: [A-Z]")
 
-# The newest position errors that the page's plots hold, since a session time, in rad.
+# The newest position errors in the page's plots since a session time, in rad.
 LARGEST_ERROR = """([since]) => {
     const { time, value } = window.svsa.series("position_error_rad");
     return Math.max(0, ...value.filter((_, i) => time[i] >= since).map(Math.abs));
 }"""
-# Of the documentation, which shows the white of the browser where it has no colour.
+# Of the documentation, which shows the white of the browser where it has no color.
 IS_SO_BRIGHT = """brightness => {
     const colour = getComputedStyle(document.querySelector(".swagger-ui")).backgroundColor;
     const shown = colour === "rgba(0, 0, 0, 0)" ? [255] : colour.match(/\\d+/g).slice(0, 3);
@@ -37,7 +37,7 @@ LAST_TIME = """() => {
 
 
 def open_page(page: Page, lab: Lab) -> None:
-    """With all controls, once what it requests as it opens has come: nothing moves after that."""
+    """Open with all controls, and wait for the initial requests: afterwards nothing moves."""
     page.goto(lab.url)
     wait_for_samples(page)
     show_all_controls(page)
@@ -45,7 +45,7 @@ def open_page(page: Page, lab: Lab) -> None:
 
 
 def show_all_controls(page: Page) -> None:
-    """Leave the basic view; a bench and an exercise have no other."""
+    """Leave the basic view, which a bench and an exercise do not have."""
     basic = page.get_by_role("switch", name="All controls", checked=False)
     if basic.count() > 0:
         basic.press("Enter")
@@ -58,7 +58,7 @@ EVALUATIONS = ("Ranking", "Leaderboard", "Studies", "Falsifier")
 
 
 def go_to_page(page: Page, name: str) -> None:
-    """By a tab; *Tune …* by the menu."""
+    """Open by a tab; *Tune …* by the menu."""
     tabs = page.locator("nav.tabs")
     expect(tabs.first).to_be_visible()
     if name in EVALUATIONS:
@@ -76,7 +76,7 @@ def go_to_page(page: Page, name: str) -> None:
 
 
 def choose_law(page: Page, title: str) -> None:
-    """Have another law control, as a hand does it."""
+    """Select another law as a user does."""
     page.get_by_role("button", name=KNOWN_LAW).press("Enter")
     laws = page.get_by_role("dialog", name=re.compile("^Control law: "))
     laws.get_by_role("searchbox").fill(title)
@@ -86,20 +86,20 @@ def choose_law(page: Page, title: str) -> None:
 
 
 def unfold(part: Locator) -> None:
-    """Open everything in a part, by key: what an answer moves meanwhile is still hit."""
+    """Open all folds in a part, by key, since elements may move during a click."""
     for more in part.locator("summary").all():
         more.press("Enter")
     expect(part.locator("details:not([open])")).to_have_count(0)
 
 
 def choose(one: Locator) -> None:
-    """Check a radio or a box by key, for the same reason; it shows so once the server says so."""
+    """Select a radio button or a checkbox by key, for the same reason; the server confirms it."""
     one.press("Space")
     expect(one).to_be_checked()
 
 
 def come_back(page: Page, lab: Lab) -> None:
-    """As a user who has been here before: without the tour, with all controls."""
+    """As a returning user: without the tour, with all controls."""
     page.goto(lab.url + "/icon.svg")
     page.evaluate(RETURNING)
 
@@ -115,9 +115,7 @@ def wait_for_samples(page: Page, after_s: float = 0.0, before_s: float = math.in
 
 @pytest.mark.smoke
 @pytest.mark.usefixtures("without_3d", "still")
-def test_the_load_button_makes_the_error_rise_and_ndobc_brings_it_back(
-    page: Page, lab: Lab
-) -> None:
+def test_load_button_causes_an_error_from_which_ndobc_recovers(page: Page, lab: Lab) -> None:
     open_page(page, lab)
     lab.jump(1)
     wait_for_samples(page, 1.9)
@@ -132,7 +130,7 @@ def test_the_load_button_makes_the_error_rise_and_ndobc_brings_it_back(
 
 
 @pytest.mark.usefixtures("without_3d", "still")
-def test_load_button_plots_and_view_are_seen_together_and_the_controller_is_switched(
+def test_load_button_plots_and_view_are_visible_together_and_the_controller_is_switched(
     page: Page, lab: Lab
 ) -> None:
     """Without scrolling."""
@@ -152,9 +150,7 @@ def test_load_button_plots_and_view_are_seen_together_and_the_controller_is_swit
 
 @pytest.mark.smoke
 @pytest.mark.usefixtures("without_3d", "still")
-def test_a_refused_value_is_explained_where_it_was_typed_and_taken_back(
-    page: Page, lab: Lab
-) -> None:
+def test_rejected_value_is_explained_at_its_field_and_reset(page: Page, lab: Lab) -> None:
     open_page(page, lab)
     before = lab.read()["configuration"]["position"]
     field = page.get_by_role("spinbutton", name=re.compile("Frequency")).first
@@ -166,12 +162,12 @@ def test_a_refused_value_is_explained_where_it_was_typed_and_taken_back(
 
 
 @pytest.mark.usefixtures("without_3d", "still")
-def test_a_new_run_does_not_begin_with_what_the_one_before_has_left(page: Page, lab: Lab) -> None:
-    """Before its first sample there is none: neither its clock nor its error is of another run."""
+def test_new_run_does_not_start_with_values_of_the_previous_one(page: Page, lab: Lab) -> None:
+    """Before its first sample there are none: neither clock nor error are of another run."""
     lab.jump(1)
     open_page(page, lab)
     clock = page.get_by_role("region", name="Status", exact=True).locator(".clock")
-    expect(clock).to_contain_text(re.compile(r"0:01\.9|0:02"))  # at 1.999 s is the last of 2000
+    expect(clock).to_contain_text(re.compile(r"0:01\.9|0:02"))  # 1.999 s is the last of 2000
     lab.client.post(lab.session + "/reset").raise_for_status()
     assert lab.read()["status"] == "paused"
     expect(clock).to_contain_text("0:00.0")
@@ -179,7 +175,7 @@ def test_a_new_run_does_not_begin_with_what_the_one_before_has_left(page: Page, 
 
 @pytest.mark.exhaustive
 @pytest.mark.usefixtures("without_3d")
-def test_the_documentation_takes_the_theme_of_the_page(page: Page, lab: Lab) -> None:
+def test_documentation_has_the_theme_of_the_page(page: Page, lab: Lab) -> None:
     for scheme, brightness in (("light", 255), ("dark", 30)):
         page.emulate_media(color_scheme=scheme)  # pyright: ignore[reportArgumentType]
         page.goto(lab.url + "/docs")

@@ -1,4 +1,4 @@
-"""Which plots there are, and what an event puts next to them, in a real browser."""
+"""The selection of plots, and the events displayed next to them, in a real browser."""
 
 import re
 
@@ -22,7 +22,7 @@ VELOCITIES = ("velocity_reference_rad_per_s", "velocity_rad_per_s")
 SCROLLS_NOT = "() => document.documentElement.scrollHeight === window.innerHeight"
 
 
-def test_plots_are_added_removed_kept_and_reset(page: Page, lab: Lab) -> None:
+def test_plots_are_added_removed_stored_and_reset(page: Page, lab: Lab) -> None:
     open_page(page, lab)
     assert not page.evaluate(STREAMED, "deflection_rad")
     page.get_by_role("button", name="Plots", exact=True).click()
@@ -50,7 +50,7 @@ def test_plots_are_added_removed_kept_and_reset(page: Page, lab: Lab) -> None:
     expect(find_plot(page, "Deflection")).to_have_count(0)
 
 
-def test_an_event_tells_what_it_did_where_it_happened(page: Page, lab: Lab) -> None:
+def test_event_shows_its_effect_at_its_time(page: Page, lab: Lab) -> None:
     open_page(page, lab)
     page.get_by_role("button", name=re.compile("Hang 3 kg")).click()
     expect(page.get_by_role("button", name=re.compile("Remove 3 kg"))).to_be_visible()
@@ -81,7 +81,7 @@ def test_eight_plots_do_not_scroll_the_page(page: Page, lab: Lab) -> None:
 
 
 @pytest.mark.exhaustive
-def test_the_last_event_stands_still_next_to_the_plots(page: Page, lab: Lab) -> None:
+def test_last_event_is_fixed_next_to_the_plots(page: Page, lab: Lab) -> None:
     open_page(page, lab)
     page.keyboard.press("z")
     expect(page.get_by_text("No event yet")).to_be_visible()

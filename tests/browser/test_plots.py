@@ -30,7 +30,7 @@ SPAN = """() => {
 
 @pytest.fixture(scope="module")
 def opened(kept_pages: tuple[KeptPage, KeptPage], shared_lab: Lab) -> Iterator[Page]:
-    """The one page of these tests, on a session that stands at 25 s at first."""
+    """The shared page of these tests, on a session paused at 25 s."""
     shared_lab.restart()
     shared_lab.jump(25)
     page = kept_pages[0].get()
@@ -43,7 +43,7 @@ def opened(kept_pages: tuple[KeptPage, KeptPage], shared_lab: Lab) -> Iterator[P
 
 @pytest.fixture
 def page(opened: Page) -> Page:
-    """It is live, and shows 20 s."""
+    """Reset to live, with 20 s."""
     live = opened.get_by_role("button", name="Live", exact=True)
     if live.is_visible():
         live.press("Enter")
@@ -62,7 +62,7 @@ def find_axis(page: Page) -> Locator:
 
 
 def wait_for_span(page: Page, condition: str = "true") -> tuple[float, float]:
-    """From and to of the time axis, s, as it tells them to a screen reader; once they are so."""
+    """Return start and end of the time axis, s, from its accessible label, once they match."""
     reported = page.wait_for_function(
         f"() => {{ const [from, to] = ({SPAN})(); return ({condition}) && [from, to]; }}"
     )
@@ -79,7 +79,7 @@ def hold(page: Page) -> None:
     expect(page.get_by_role("button", name="Live")).to_be_visible()
 
 
-def test_the_plots_stand_still_while_the_data_go_on(page: Page, shared_lab: Lab) -> None:
+def test_held_plots_do_not_move_while_samples_arrive(page: Page, shared_lab: Lab) -> None:
     hold(page)
     page.evaluate(SOME_FRAMES)
     before, newest = wait_for_span(page), page.evaluate(NEWEST)
@@ -91,7 +91,7 @@ def test_the_plots_stand_still_while_the_data_go_on(page: Page, shared_lab: Lab)
     wait_for_span(page, f"to > {newest + 0.5}")
 
 
-def test_every_channel_of_the_server_can_be_picked(page: Page) -> None:
+def test_every_channel_of_the_server_can_be_selected(page: Page) -> None:
     page.get_by_role("button", name="Plots", exact=True).click()
     picker = page.get_by_label("Another plot of")
     expect(picker).to_be_visible()
@@ -103,7 +103,7 @@ def test_every_channel_of_the_server_can_be_picked(page: Page) -> None:
     expect(picker).to_be_hidden()
 
 
-def test_a_channel_more_keeps_the_past_of_the_others(page: Page, shared_lab: Lab) -> None:
+def test_added_channel_keeps_the_past_of_the_others(page: Page, shared_lab: Lab) -> None:
     oldest = page.evaluate(OLDEST)
     page.get_by_role("button", name="Position: curves, save, remove").click()
     page.get_by_role("checkbox", name="Principal motor θ₁").check()
@@ -117,7 +117,7 @@ def test_a_channel_more_keeps_the_past_of_the_others(page: Page, shared_lab: Lab
     expect(legend).to_be_visible()
 
 
-def test_wheel_drag_and_double_click_move_all_plots_in_step(page: Page) -> None:
+def test_wheel_drag_and_double_click_move_all_plots_together(page: Page) -> None:
     box = find_plot(page, "Torque").locator("canvas").bounding_box()
     assert box is not None
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
@@ -134,7 +134,7 @@ def test_wheel_drag_and_double_click_move_all_plots_in_step(page: Page) -> None:
     expect(page.get_by_role("button", name="Pause plots")).to_be_visible()
 
 
-def test_the_keyboard_moves_zooms_and_goes_live(page: Page) -> None:
+def test_keyboard_moves_zooms_and_goes_live(page: Page) -> None:
     choose(page.get_by_role("radio", name="10 s"))
     find_axis(page).focus()
     page.keyboard.press("+")
@@ -148,7 +148,7 @@ def test_the_keyboard_moves_zooms_and_goes_live(page: Page) -> None:
 
 
 def read_place(cursor: Locator) -> float:
-    """Once it is drawn where it was put."""
+    """Return the position of the cursor after it was drawn."""
     cursor.page.evaluate(SOME_FRAMES)
     return float(cursor.get_attribute("aria-valuenow") or "nan")
 
@@ -199,7 +199,7 @@ def test_cursors_measure_the_samples_between_them(page: Page) -> None:
     assert cells[4] == pytest.approx(max(between), rel=1e-3, abs=1e-3)
 
 
-def test_what_is_seen_is_saved(page: Page, tmp_path: Path) -> None:
+def test_displayed_curves_are_saved(page: Page, tmp_path: Path) -> None:
     hold(page)
     saved = {}
     for kind in ("PNG", "SVG", "CSV"):
@@ -219,7 +219,7 @@ def test_what_is_seen_is_saved(page: Page, tmp_path: Path) -> None:
     assert times[1] - times[0] == pytest.approx(0.005)
 
 
-def test_the_disturbance_plot_says_which_law_does_not_use_the_estimate(
+def test_disturbance_plot_names_the_law_that_does_not_use_the_estimate(
     page: Page, shared_lab: Lab
 ) -> None:
     plot, note = find_plot(page, "Disturbance"), "unused by FL"

@@ -1,4 +1,4 @@
-"""The page Ranking: sorted, a row chosen, and left for one of its runs, by keyboard alone."""
+"""The page Ranking: sorting, selecting a row, and opening one of its runs, by keyboard alone."""
 
 import re
 
@@ -14,7 +14,7 @@ pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without
 
 
 @pytest.mark.smoke
-def test_the_table_is_sorted_chosen_from_and_left_for_a_run(page: Page, still_lab: Lab) -> None:
+def test_table_is_sorted_selected_from_and_opens_a_run(page: Page, still_lab: Lab) -> None:
     open_page(page, still_lab)
     go_to_page(page, "Ranking")
     table = page.get_by_role("region", name="Success rates, rank and fixed scenarios")
@@ -31,7 +31,7 @@ def test_the_table_is_sorted_chosen_from_and_left_for_a_run(page: Page, still_la
     table.get_by_role("button", name=title, exact=True).press("Enter")
     expect(page.get_by_role("heading", name=title, exact=True)).to_be_visible()
     expect(page.get_by_role("img", name="Position error against stiffness error")).to_be_visible()
-    cell = re.compile(rf"^{re.escape(title)}, 3 kg, °: \d")
+    cell = re.compile(rf"^{re.escape(title)}, 3 kg: peak error, °: \d")
     table.get_by_role("button", name=cell).press("Enter")
     page.wait_for_url(re.compile(r"\?session="))
     expect(page.get_by_text("Private session.")).to_be_visible()
@@ -39,12 +39,12 @@ def test_the_table_is_sorted_chosen_from_and_left_for_a_run(page: Page, still_la
     expect(page.get_by_role("note")).to_have_count(0)
 
 
-def test_a_run_that_ndobc_would_end_is_seen_alone_with_the_reason(
+def test_run_in_which_ndobc_faults_is_shown_alone_with_the_reason(
     page: Page, still_lab: Lab
 ) -> None:
     open_page(page, still_lab)
     go_to_page(page, "Ranking")
-    cell = re.compile(rf"^{re.escape(get_entry_title('fl'))}, Load removal, °: ")
+    cell = re.compile(rf"^{re.escape(get_entry_title('fl'))}, Load removal: peak error, °: ")
     page.get_by_role("button", name=cell).press("Enter")
     page.wait_for_url(re.compile(r"\?session="))
     note = page.get_by_role("note").filter(has_text="is shown alone")

@@ -1,4 +1,4 @@
-"""What separates the simulation from a bench, switched on in the page."""
+"""Non-ideal effects, switched on in the page."""
 
 import re
 from typing import Any
@@ -15,7 +15,7 @@ pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without
 
 @pytest.fixture
 def realism(page: Page, lab: Lab) -> Locator:
-    """The group, with everything in it in sight."""
+    """The group, with all its controls in view."""
     open_page(page, lab)
     group = page.get_by_role("region", name="Realism", exact=True)
     unfold(group)
@@ -26,9 +26,7 @@ def read(lab: Lab) -> dict[str, Any]:
     return lab.read()["configuration"]
 
 
-def test_the_rig_is_one_choice_and_a_figure_keeps_it(
-    page: Page, lab: Lab, realism: Locator
-) -> None:
+def test_rig_is_one_choice_that_a_figure_keeps(page: Page, lab: Lab, realism: Locator) -> None:
     choose(realism.get_by_role("radio", name="Rig"))
     expect(realism.get_by_text("torque one sample late")).to_be_visible()
     assert Effects.model_validate(read(lab)["effects"]) == RIG
@@ -42,9 +40,7 @@ def test_the_rig_is_one_choice_and_a_figure_keeps_it(
     assert lab.read()["loads"][0]["start_s"] == 5.0
 
 
-def test_an_effect_on_its_own_and_the_model_made_wrong_and_exact(
-    page: Page, lab: Lab, realism: Locator
-) -> None:
+def test_single_effect_and_model_error_are_switched(page: Page, lab: Lab, realism: Locator) -> None:
     noise = realism.get_by_role("checkbox", name="Sensor noise")
     choose(noise)
     deviation = realism.get_by_label("Deflection, std. dev.")

@@ -1,4 +1,4 @@
-"""A time series on the page: looked at before it is applied, refused with its row."""
+"""A time series on the page: previewed before it is applied, rejected with its row."""
 
 import pytest
 from playwright.sync_api import Page, expect
@@ -11,7 +11,7 @@ GOOD = "time_s,stiffness_nm_per_rad\n0,15\n1,25\n2,15\n"
 
 
 @pytest.mark.usefixtures("kept_page", "without_3d", "still")
-def test_a_csv_of_stiffness_is_seen_then_applied(page: Page, lab: Lab) -> None:
+def test_stiffness_csv_is_previewed_then_applied(page: Page, lab: Lab) -> None:
     open_page(page, lab)
     stiffness = page.get_by_role("region", name="Stiffness", exact=True)
     choose(stiffness.get_by_role("radio", name="Other"))

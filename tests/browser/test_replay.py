@@ -1,4 +1,4 @@
-"""An exported run in a real browser: opened from a file, with no network at all."""
+"""An exported run in a real browser: opened from a file, without a network."""
 
 import math
 import re
@@ -15,7 +15,7 @@ pytestmark = pytest.mark.browser
 
 PATIENCE_MS = 60_000
 
-# Half the angle of the link as the 3D view has it, sin of it.
+# Half the angle of the link in the 3D view, as its sine.
 LINK_IN_3D = """() => document.querySelector("iframe").contentWindow
     .__viserMutable.nodePoseData["/a/l"].wxyz[3]"""
 LOAD_IN_3D = """() => document.querySelector("iframe").contentWindow
@@ -30,7 +30,7 @@ READ = """angles => {
     return shown.length === angles.length && shown.every(({ textContent }, index) =>
         Math.abs(Number(textContent.replace("−", "-")) - angles[index]) <= 0.1);
 }"""
-# It may end meanwhile, if it plays: there is nothing to stop then.
+# It may end in the meantime, if it plays: there is nothing to stop then.
 STOP = """() => {
     const button = document.querySelector(".play");
     if (button.innerText === "Pause") button.click();
@@ -43,7 +43,7 @@ def exported(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 class Watch:
-    """What a page asks of the network, and what it complains about."""
+    """The requests and console errors of a page."""
 
     def __init__(self, page: Page) -> None:
         self.requests: list[str] = []
@@ -62,7 +62,7 @@ class Watch:
 
 
 def open_file(page: Page, path: Path) -> Watch:
-    """Open the file without network and wait until the 3D view stands."""
+    """Open the file without network and wait for the 3D view."""
     page.context.set_offline(True)
     watch = Watch(page)
     page.goto(path.as_uri())
@@ -71,7 +71,7 @@ def open_file(page: Page, path: Path) -> Watch:
 
 
 class Opened(NamedTuple):
-    """An exported run in a page, and what was heard from that page since it was opened."""
+    """An exported run in a page, and its requests since it was opened."""
 
     page: Page
     watch: Watch
@@ -88,7 +88,7 @@ def opened_once(browser: Browser, exported: Path) -> Iterator[Opened]:
 
 @pytest.fixture
 def opened(opened_once: Opened) -> Opened:
-    """The one page of the tests that change nothing but what it shows, as it was at first."""
+    """The shared page of tests that change its view only, reset to its initial view."""
     page = opened_once.page
     page.keyboard.press("Escape")
     whole = page.get_by_role("button", name="Whole run")
@@ -108,7 +108,7 @@ def wait_for_link(page: Page, angle_rad: float) -> None:
 
 
 def wait_for_lines(page: Page, share: float, tolerance: float) -> None:
-    """Wait until the line of the time stands there in each of the five plots, 0 to 1."""
+    """Wait until the time line is at this place, 0 to 1, in each of the five plots."""
     page.wait_for_function(
         f"""([share, tolerance]) => {{
             const lines = ({NOW_LINES})();
@@ -119,7 +119,7 @@ def wait_for_lines(page: Page, share: float, tolerance: float) -> None:
 
 
 def expect_theme(page: Page, scheme: str) -> None:
-    """Of the page and of the 3D view in it."""
+    """The theme of the page and of its 3D view."""
     background = page.evaluate("getComputedStyle(document.body).backgroundColor")
     assert (sum(map(int, re.findall(r"\d+", background))) < 200) == (scheme == "dark")
     page.wait_for_function(
@@ -129,11 +129,11 @@ def expect_theme(page: Page, scheme: str) -> None:
     )
 
 
-def test_it_takes_the_dark_theme_of_the_system(opened: Opened) -> None:
+def test_replay_uses_the_dark_theme_of_the_system(opened: Opened) -> None:
     expect_theme(opened.page, "dark")
 
 
-def test_one_scrubber_moves_the_3d_view_and_the_plots_together(
+def test_one_slider_moves_the_3d_view_and_the_plots_together(
     opened: Opened, exported: Path
 ) -> None:
     page, watch = opened
@@ -151,7 +151,7 @@ def test_one_scrubber_moves_the_3d_view_and_the_plots_together(
 
 
 def take_still(page: Page) -> bytes:
-    """The picture in 3D once nothing moves in it, which is drawn twice a second at least."""
+    """Return the 3D picture once it is at rest; it is drawn at least twice a second."""
     view, before = page.locator("iframe"), b""
     for _ in range(PATIENCE_MS // 600):
         now = view.screenshot()
@@ -170,7 +170,7 @@ def wait_for_another_picture(page: Page, before: bytes) -> None:
     raise AssertionError("the picture in 3D stays as it was")
 
 
-def test_the_picture_in_3d_changes_with_the_time(opened: Opened, exported: Path) -> None:
+def test_picture_in_3d_changes_with_the_time(opened: Opened, exported: Path) -> None:
     page, watch = opened
     wait_for_link(page, 0.0)
     before = take_still(page)
@@ -180,7 +180,7 @@ def test_the_picture_in_3d_changes_with_the_time(opened: Opened, exported: Path)
     watch.check(exported)
 
 
-def test_it_plays_pauses_and_obeys_keys_also_from_inside_the_3d_view(
+def test_replay_plays_pauses_and_obeys_keys_also_inside_the_3d_view(
     opened: Opened, exported: Path
 ) -> None:
     page, watch = opened
@@ -205,7 +205,7 @@ def test_it_plays_pauses_and_obeys_keys_also_from_inside_the_3d_view(
     watch.check(exported)
 
 
-def test_a_click_goes_there_and_a_drag_zooms(opened: Opened) -> None:
+def test_click_sets_the_time_and_drag_zooms(opened: Opened) -> None:
     page, _ = opened
     over = page.locator(".u-over").first
     box = over.bounding_box()
@@ -225,7 +225,7 @@ def test_a_click_goes_there_and_a_drag_zooms(opened: Opened) -> None:
     expect(whole).to_be_disabled()
 
 
-def test_the_run_tells_about_itself(opened: Opened, exported: Path) -> None:
+def test_run_describes_itself(opened: Opened, exported: Path) -> None:
     page, watch = opened
     expect(page).to_have_title("A test run")
     expect(page.get_by_text("9.9.9").first).to_be_visible()

@@ -1,4 +1,4 @@
-"""Exported runs of every kind, each opened from a file of its own in a real browser."""
+"""Exported runs of every kind, each opened from its own file in a real browser."""
 
 from pathlib import Path
 
@@ -36,8 +36,8 @@ IS_DRAWN = f"""() => ({CURVE})(document.querySelector('[data-plot="position"]'))
 
 
 @pytest.mark.exhaustive
-def test_a_slow_curve_is_no_stairs(page: Page, tmp_path: Path) -> None:
-    """A rise of 40 pixels over some hundreds, drawn between whole pixels: to a fifth of one."""
+def test_slow_curve_is_smooth(page: Page, tmp_path: Path) -> None:
+    """A rise of 40 pixels over some hundreds is drawn with an accuracy of a fifth of a pixel."""
     samples, mass = make_run(ticks=50, lanes=1)
     samples[:, :, CHANNELS.index("position_rad")] = np.linspace(0.0, 0.02, 50)[:, None]
     samples[:, :, CHANNELS.index("position_reference_rad")] = np.nan
@@ -53,18 +53,18 @@ def test_a_slow_curve_is_no_stairs(page: Page, tmp_path: Path) -> None:
 
 
 @pytest.mark.exhaustive
-def test_a_run_of_the_emulated_rig_is_marked(page: Page, tmp_path: Path) -> None:
+def test_run_of_the_emulated_rig_is_marked(page: Page, tmp_path: Path) -> None:
     open_file(page, write_page(tmp_path, details={"plant": "emulated"}))
     expect(page.get_by_text("EMULATED", exact=True)).to_be_visible()
 
 
 @pytest.mark.exhaustive
-def test_it_takes_the_light_theme_of_the_system(page: Page, tmp_path: Path) -> None:
+def test_replay_uses_the_light_theme_of_the_system(page: Page, tmp_path: Path) -> None:
     open_file(page, write_page(tmp_path))
     expect_theme(page, "light")
 
 
-def test_hostile_words_are_only_words(page: Page, tmp_path: Path) -> None:
+def test_html_in_names_is_escaped(page: Page, tmp_path: Path) -> None:
     evil = "</script><script>window.bad=1</script><img src=x onerror='window.bad=1'>\ud800"
     path = write_page(
         tmp_path,
@@ -79,7 +79,7 @@ def test_hostile_words_are_only_words(page: Page, tmp_path: Path) -> None:
 
 
 @pytest.mark.exhaustive
-def test_a_run_of_one_tick_and_one_of_holes_still_open(page: Page, tmp_path: Path) -> None:
+def test_runs_of_one_tick_and_with_gaps_still_open(page: Page, tmp_path: Path) -> None:
     short, _ = make_run(ticks=1, lanes=1)
     holes, mass = make_run(lanes=1)
     holes[1000:2000] = np.nan

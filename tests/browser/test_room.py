@@ -1,4 +1,4 @@
-"""What needs room at a small size has it: plots under cursors, notes, numbers, chips."""
+"""Space at small sizes: plots under cursors, notes, numbers, chips."""
 
 import re
 
@@ -12,7 +12,7 @@ from tests.lab import Lab
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
 
 
-def test_at_the_smallest_size_cursors_leave_every_plot_in_sight(page: Page, still_lab: Lab) -> None:
+def test_cursors_leave_every_plot_in_view_at_the_smallest_size(page: Page, still_lab: Lab) -> None:
     resize(page, 1280, 720)
     open_page(page, still_lab)
     page.get_by_role("button", name="Cursors").press("Enter")
@@ -20,9 +20,7 @@ def test_at_the_smallest_size_cursors_leave_every_plot_in_sight(page: Page, stil
     expect(page.locator(".plots-below")).to_have_count(0)
 
 
-def test_a_recording_is_reported_over_the_lab_and_on_no_other_page(
-    page: Page, still_lab: Lab
-) -> None:
+def test_recording_is_shown_over_the_lab_and_on_no_other_page(page: Page, still_lab: Lab) -> None:
     """The layout does not move, and other pages do not show it."""
     open_page(page, still_lab)
     before = get_box(page.locator(".view"))
@@ -37,7 +35,7 @@ def test_a_recording_is_reported_over_the_lab_and_on_no_other_page(
 
 
 @pytest.mark.parametrize("value", ["379000", "12960000"])
-def test_a_number_box_shows_its_whole_number(page: Page, still_lab: Lab, value: str) -> None:
+def test_number_field_shows_its_complete_number(page: Page, still_lab: Lab, value: str) -> None:
     open_page(page, still_lab)
     page.get_by_text("Gains, coefficient by coefficient").click()
     box = page.get_by_role("spinbutton", name=re.compile("c₀ of q"))

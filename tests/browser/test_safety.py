@@ -1,4 +1,4 @@
-"""Status bar, quick stop and keyboard of a simulated session, against a real server."""
+"""Status bar, quick stop and keyboard of a simulated session, with a real server."""
 
 import re
 from collections.abc import Iterator
@@ -20,7 +20,7 @@ IS_LARGE = f"""([width, height]) => {{
     const box = {STOP}.getBoundingClientRect();
     return box.width >= width && box.height >= height;
 }}"""
-# It neither moves nor changes its colour.
+# It neither moves nor changes its color.
 RESTS = f"""async () => {{
     const read = () => JSON.stringify({STOP}.getBoundingClientRect());
     const before = read();
@@ -38,7 +38,7 @@ def wait_for_status(page: Page, lab: Lab, status: str) -> None:
     raise AssertionError(f"the session is {lab.read()['status']}, not {status}")
 
 
-def test_the_status_bar_is_in_sight_and_tells_what_runs(page: Page, lab: Lab) -> None:
+def test_status_bar_is_visible_and_shows_what_runs(page: Page, lab: Lab) -> None:
     open_page(page, lab)
     bar = page.get_by_role("region", name="Status", exact=True)
     expect(bar).to_be_in_viewport(ratio=1)
@@ -51,9 +51,7 @@ def test_the_status_bar_is_in_sight_and_tells_what_runs(page: Page, lab: Lab) ->
 
 
 @pytest.mark.smoke
-def test_a_stop_that_is_not_confirmed_is_asked_again_pauses_and_tells_how_to_go_on(
-    page: Page, lab: Lab
-) -> None:
+def test_unconfirmed_stop_is_repeated_then_pauses_with_instructions(page: Page, lab: Lab) -> None:
     open_page(page, lab)
     page.route("**/quick-stop", lambda route: route.abort())
     page.get_by_role("button", name="Quick stop").click()
@@ -69,10 +67,10 @@ def test_a_stop_that_is_not_confirmed_is_asked_again_pauses_and_tells_how_to_go_
 
 
 @pytest.mark.parametrize("plant", exhaust(["simulated", "bench"], ["simulated"]))
-def test_a_fault_of_a_simulation_and_of_a_bench_tells_what_to_try(
+def test_fault_of_a_simulation_and_of_a_bench_has_advice(
     page: Page, request: pytest.FixtureRequest, lab: Lab, plant: str
 ) -> None:
-    """What else there is to see is in its message, with the numbers."""
+    """Its message has further information, with the numbers."""
     code = "lever_end"
     if plant == "bench":
         page = request.getfixturevalue("bench_page")
@@ -87,10 +85,10 @@ def test_a_fault_of_a_simulation_and_of_a_bench_tells_what_to_try(
 
 
 @pytest.mark.parametrize("scheme", exhaust(["light", "dark"], ["dark"]))
-def test_the_stop_does_not_look_like_an_emergency_stop(
+def test_stop_does_not_look_like_an_emergency_stop(
     page: Page, bench_page: Page, lab: Lab, scheme: Literal["light", "dark"]
 ) -> None:
-    """No colour but black, grey and white, in contrast; larger on a bench than in simulation."""
+    """Only black, grey and white, with contrast; larger on a bench than in simulation."""
     areas = []
     PatchedBench(bench_page, status="run", homing=HOMED)
     for one, kind in ((page, "is-simulation"), (bench_page, "is-bench")):
@@ -138,19 +136,19 @@ def test_keys_command_the_page(page: Page, lab: Lab) -> None:
 
 @pytest.fixture
 def commands(page: Page) -> Iterator[list[str]]:
-    """What the page asks of the session, but for what it reads."""
+    """The requests of the page to the session, except reading ones."""
     asked: list[str] = []
 
-    def hear(request: Request) -> None:
+    def receive_request(request: Request) -> None:
         if request.method != "GET":
             asked.append(request.url.rpartition("/")[2])
 
-    page.on("request", hear)
+    page.on("request", receive_request)
     yield asked
-    page.remove_listener("request", hear)
+    page.remove_listener("request", receive_request)
 
 
-def test_keys_typed_into_a_field_stay_there_and_single_keys_are_switched_off(
+def test_keys_in_a_text_field_are_text_and_single_keys_can_be_disabled(
     page: Page, lab: Lab, commands: list[str]
 ) -> None:
     open_page(page, lab)
@@ -183,7 +181,7 @@ def test_keys_typed_into_a_field_stay_there_and_single_keys_are_switched_off(
 
 @pytest.mark.usefixtures("still")
 def test_only_a_page_that_shows_the_session_has_its_clock_and_stop(page: Page, lab: Lab) -> None:
-    """The key works on every page; a simulation has no button where it is not shown."""
+    """The key works on every page; a simulation has its button only where it is shown."""
     open_page(page, lab)
     expect(page.get_by_role("timer")).to_be_visible()
     expect(page.get_by_role("button", name="Quick stop")).to_be_visible()
@@ -201,7 +199,7 @@ def test_only_a_page_that_shows_the_session_has_its_clock_and_stop(page: Page, l
     expect(bar.get_by_role("button", name="Quick stop")).to_be_visible()
 
 
-def test_a_bench_keeps_its_stop_on_every_page(bench_page: Page, lab: Lab) -> None:
+def test_bench_keeps_its_stop_on_every_page(bench_page: Page, lab: Lab) -> None:
     PatchedBench(bench_page, status="run", homing=HOMED)
     open_page(bench_page, lab)
     for name in ("Runs", "Studies"):

@@ -1,4 +1,4 @@
-"""A simulation that is locked with a secret: asked for once and never shown."""
+"""A simulation that is locked with a secret: requested once and never shown."""
 
 import re
 from collections.abc import Iterator
@@ -25,7 +25,7 @@ def locked_lab() -> Iterator[Lab]:
 
 @pytest.fixture
 def locked(page: Page, locked_lab: Lab) -> Lab:
-    """The lab, which runs, and a page that asks for its secret."""
+    """The running lab, and a page that requests its secret."""
     locked_lab.load_figure()
     locked_lab.client.post(locked_lab.session + "/start").raise_for_status()
     page.goto(locked_lab.url)
@@ -33,12 +33,12 @@ def locked(page: Page, locked_lab: Lab) -> Lab:
     return locked_lab
 
 
-def test_the_secret_is_asked_for_once_and_never_shown(page: Page, locked: Lab) -> None:
+def test_secret_is_requested_once_and_never_shown(page: Page, locked: Lab) -> None:
     field = page.get_by_label("Secret")
     field.fill("wrong wrong")
     field.press("Enter")
     expect(page.get_by_text(re.compile("not the secret", re.I))).to_be_visible()
-    # A stranger does not stop a simulation, so none is offered before the login.
+    # Without login a simulation cannot be stopped, so no stop is offered.
     expect(page.get_by_role("dialog").get_by_role("button", name="Quick stop")).to_have_count(0)
     page.keyboard.press("Shift+Escape")
     field.fill(SECRET)
@@ -58,5 +58,5 @@ def test_the_secret_is_asked_for_once_and_never_shown(page: Page, locked: Lab) -
 
 @pytest.mark.exhaustive
 @pytest.mark.usefixtures("locked")
-def test_the_login_has_no_violation(page: Page) -> None:
+def test_login_has_no_violation(page: Page) -> None:
     expect_no_violation(page, WIDE, PHONE)

@@ -1,4 +1,4 @@
-"""A page whose first request the server does not answer: it says so, asks again, and opens."""
+"""A page whose first request is not answered: it reports it, retries, and opens."""
 
 import pytest
 from playwright.sync_api import Page, Route, expect
@@ -19,7 +19,7 @@ PAGES = {
 
 
 @pytest.mark.parametrize("name", PAGES)
-def test_a_page_that_got_no_answer_asks_again(page: Page, lab: Lab, name: str) -> None:
+def test_page_without_an_answer_retries(page: Page, lab: Lab, name: str) -> None:
     address, path = PAGES[name]
     unanswered: list[str] = []
 

@@ -1,4 +1,4 @@
-"""The page Studies: looked at, brushed, picked from and left for a run, by keyboard alone; axe."""
+"""The page Studies: display, selection in the plots, and a row opened, by keyboard alone; axe."""
 
 import re
 from collections.abc import Iterator
@@ -21,7 +21,7 @@ SIZES = ((WIDE,), (WIDE, TABLET, PHONE))
 
 @pytest.fixture(scope="module")
 def studied(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Lab]:
-    """A lab with a study of 80 runs of 1.2 s, and one of 64 drawn for what decides them."""
+    """A lab with a study of 80 runs of 1.2 s, and one of 64 sampled for sensitivity."""
     data = tmp_path_factory.mktemp("data")
     decided = build_study(vary=VARIED[:2], laws=("ndobc",), runs=16, sampling="sensitivity")
     for name, study in (("short", build_study()), ("decided", decided)):
@@ -31,7 +31,7 @@ def studied(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Lab]:
 
 
 @pytest.mark.parametrize("sizes", exhaust(SIZES, SIZES[:1]))
-def test_a_study_is_brushed_picked_from_and_left_for_a_run(
+def test_study_is_selected_from_and_opens_a_run(
     page: Page, studied: Lab, sizes: tuple[tuple[int, int], ...]
 ) -> None:
     page.goto(studied.url + "/?studies=all")
@@ -62,7 +62,7 @@ def test_a_study_is_brushed_picked_from_and_left_for_a_run(
     assert (brush.bounding_box() or {"width": 0})["width"] > 100
 
 
-def test_a_wrong_text_is_reported_with_its_line_and_nothing_is_begun(
+def test_invalid_text_is_reported_with_its_line_and_nothing_is_started(
     page: Page, studied: Lab
 ) -> None:
     page.goto(studied.url + "/?studies=all")
@@ -83,7 +83,7 @@ SHARES_SHOWN = """panel => [...panel.querySelectorAll("dl > div")].map(row =>
         each => each.getBoundingClientRect().width)).map(([bar, whole]) => bar / whole))"""
 
 
-def test_the_bars_of_what_decides_it_are_as_long_as_its_sobol_indices(
+def test_bars_of_the_sensitivity_have_the_length_of_its_sobol_indices(
     page: Page, studied: Lab
 ) -> None:
     asked = studied.client.get("/api/v1/studies/decided/sensitivity").raise_for_status()

@@ -1,4 +1,4 @@
-"""The panel *Tune*: a search is begun, followed until it ends and applied, by keyboard alone."""
+"""The panel *Tune*: a search is started, followed to its end and applied, by keyboard alone."""
 
 import re
 from functools import partial
@@ -8,7 +8,7 @@ import httpx
 import pytest
 from playwright.sync_api import Locator, Page, Response, expect
 
-from svsa.runs.configuration import parse_design
+from svsa.runs.design_file import parse_design
 from tests.browser.settled import get_box, resize, until
 from tests.browser.test_page import go_to_page, open_page
 from tests.lab import Lab
@@ -16,7 +16,7 @@ from tests.lab import Lab
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
 
 CANDIDATES = 12
-PATIENCE_MS = 120_000  # it may have to compile the law first
+PATIENCE_MS = 120_000  # the law may have to be compiled first
 
 
 def open_tuning(page: Page) -> Locator:
@@ -31,9 +31,9 @@ def begins_tuning(response: Response) -> bool:
 
 
 def tune(panel: Locator) -> dict[str, Any]:
-    """Search FL + I from what it is set to, to the end, and read what was found.
+    """Search FL + I from its present parameters to the end, and read the result.
 
-    What was found before may stand there meanwhile, in the same words.
+    Until then, the panel may show an earlier result with the same text.
     """
     panel.get_by_label("Law").select_option("fl_integral")
     panel.get_by_label("Candidates", exact=True).fill(str(CANDIDATES))
@@ -50,7 +50,7 @@ def tune(panel: Locator) -> dict[str, Any]:
     return found["result"]
 
 
-def test_a_law_is_tuned_and_the_best_is_put_to_use_and_saved(page: Page, lab: Lab) -> None:
+def test_law_is_tuned_and_the_best_result_is_applied_and_saved(page: Page, lab: Lab) -> None:
     lab.load_figure(law="fl_integral")
     lab.jump(1)
     open_page(page, lab)
@@ -83,12 +83,12 @@ def test_a_law_is_tuned_and_the_best_is_put_to_use_and_saved(page: Page, lab: La
     expect(open_tuning(page).get_by_text(re.compile("Done"))).to_be_visible()
 
 
-def test_the_panel_leaves_the_settings_and_the_transport_in_reach(
+def test_panel_leaves_the_settings_and_the_transport_controls_accessible(
     page: Page, still_lab: Lab
 ) -> None:
     open_page(page, still_lab)
     panel = open_tuning(page)
-    controls = page.get_by_role("group", name="Controls", exact=True)
+    controls = page.get_by_role("region", name="Controls", exact=True)
     transport = page.get_by_role("button", name="Run", exact=True)
 
     def is_below_and_next_to(width: int) -> bool:

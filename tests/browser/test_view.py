@@ -20,7 +20,7 @@ CAMERA = """() => {
     const { x, y, z } = viser?.camera?.position ?? {};
     return [x, y, z];
 }"""
-# Where rendering takes long, the view is drawn twice a second, or less where much else is going on.
+# With slow rendering the view is drawn twice a second, or less under other load.
 STANDS_STILL = f"""async () => {{
     const read = {CAMERA};
     const before = read();
@@ -34,7 +34,7 @@ IS_THERE = f"place => ({CAMERA})().every((value, i) => Math.abs(value - place[i]
 
 
 def wait_for_view(page: Page) -> None:
-    """Wait until the view is there and its camera stands still."""
+    """Wait until the view is displayed and its camera is at rest."""
     expect(page.frame_locator("iframe").locator("canvas").first).to_be_visible()
     page.wait_for_function(
         "() => !!document.querySelector('iframe')?.contentWindow?.__viserMutable?.camera",
@@ -61,7 +61,7 @@ def opened_once(browser: Browser, browser_context_args: dict, shared_lab: Lab) -
 
 @pytest.fixture
 def view(opened_once: Page, browser_context_args: dict, lab: Lab) -> Page:
-    """The one page of these tests, on Figure 4A at 1 s, in full graphics and without names."""
+    """The shared page of these tests, on Figure 4A at 1 s, in full graphics and without names."""
     lab.jump(1)
     page = opened_once
     page.set_viewport_size(browser_context_args["viewport"])
@@ -74,7 +74,7 @@ def view(opened_once: Page, browser_context_args: dict, lab: Lab) -> Page:
     return page
 
 
-def test_the_camera_goes_to_a_preset_of_this_page_only(view: Page) -> None:
+def test_camera_moves_to_a_preset_of_this_page_only(view: Page) -> None:
     page = view
     page.get_by_role("button", name="Camera: Side").click()
     page.wait_for_function(f"() => ({CAMERA})()[0] < -11", timeout=LONG_MS)
@@ -82,7 +82,7 @@ def test_the_camera_goes_to_a_preset_of_this_page_only(view: Page) -> None:
     page.wait_for_function(f"() => ({CAMERA})()[2] < -8", timeout=LONG_MS)
 
 
-# What is wrong with the labels on the picture, once all that it shows has been laid out again.
+# Problems of the labels on the picture, once all labels have been laid out again.
 FIND_LABEL_PROBLEMS = """async () => {
     for (let i = 0; i < 14; i++) await new Promise(requestAnimationFrame);
     const view = document.querySelector(".view");
@@ -108,7 +108,7 @@ FIND_LABEL_PROBLEMS = """async () => {
 
 
 @pytest.mark.exhaustive
-def test_labels_lie_on_the_picture_clear_of_each_other(view: Page, lab: Lab) -> None:
+def test_labels_lie_on_the_picture_without_overlap(view: Page, lab: Lab) -> None:
     page = view
     comparisons = {"comparisons": [{"law": "fl"}, {"law": "ndobc"}]}
     lab.client.put(lab.session + "/lanes", json=comparisons).raise_for_status()
@@ -116,7 +116,7 @@ def test_labels_lie_on_the_picture_clear_of_each_other(view: Page, lab: Lab) -> 
     problems = []
 
     def measure(where: str) -> None:
-        """Again until the picture shows what was asked for, where there is something to find."""
+        """Repeat until the picture shows the requested view, after a finding."""
         found = []
         for _ in range(ATTEMPTS):
             found = page.evaluate(FIND_LABEL_PROBLEMS)
@@ -140,9 +140,7 @@ def test_labels_lie_on_the_picture_clear_of_each_other(view: Page, lab: Lab) -> 
 
 @pytest.mark.exhaustive
 @pytest.mark.usefixtures("kept_page")
-def test_the_first_camera_is_fitted_and_a_narrower_window_moves_it_back(
-    page: Page, lab: Lab
-) -> None:
+def test_initial_camera_is_fitted_and_a_narrower_window_moves_it_back(page: Page, lab: Lab) -> None:
     page.set_viewport_size({"width": 1280, "height": 720})
     open_view(page, lab)
     first = page.evaluate(CAMERA)
@@ -163,9 +161,9 @@ def wait_for_push(page: Page, lab: Lab) -> None:
 
 
 def wait_for_end(page: Page, lab: Lab) -> int:
-    """Wait until nothing pushes and each push is known to be over; how many there were.
+    """Wait until nothing pushes and each push has ended; return their number.
 
-    A page that is not heard of in time has its push ended, and begins it again.
+    If the page sends nothing in time, the server ends its push, and the page starts the push again.
     """
     labels: list[str] = []
     for _ in range(LONG_MS // 100):
@@ -180,7 +178,7 @@ def wait_for_end(page: Page, lab: Lab) -> int:
     raise AssertionError(f"pushes: {labels}")
 
 
-def test_the_link_is_pushed_with_the_mouse_and_by_keys(view: Page, lab: Lab) -> None:
+def test_link_is_pushed_with_the_mouse_and_by_keys(view: Page, lab: Lab) -> None:
     page = view
     page.get_by_role("button", name="Camera: Front").click()
     page.wait_for_function(f"() => ({CAMERA})()[2] < -8", timeout=LONG_MS)
@@ -221,7 +219,7 @@ def test_shift_escape_stops_from_a_text_field_and_from_the_3d_view(view: Page, l
     wait_for_status(page, lab, "paused")
 
 
-def test_names_of_the_parts_are_shown_in_the_window_that_asks(view: Page) -> None:
+def test_names_of_the_parts_are_shown_in_the_requesting_window_only(view: Page) -> None:
     page = view
     seen = """name => document.querySelector("iframe").contentWindow
         .__viserMutable && document.querySelector("iframe").contentWindow
@@ -248,7 +246,7 @@ def test_low_graphics_are_remembered(view: Page) -> None:
     expect(switch).to_have_attribute("aria-pressed", "true")
 
 
-def test_the_3d_view_shows_that_it_has_the_focus(own_page: Page, lab: Lab) -> None:
+def test_focused_3d_view_is_marked(own_page: Page, lab: Lab) -> None:
     open_view(own_page, lab)
     ring = "() => getComputedStyle(document.querySelector('.view'), '::after').borderTopWidth"
     assert own_page.evaluate(ring) != "2px"

@@ -1,4 +1,4 @@
-"""Where the browser has no WebGL: why there is no 3D view, and the same poses in 2D."""
+"""A browser without WebGL: the reason for the missing 3D view, and the same poses in 2D."""
 
 import math
 import re
@@ -21,7 +21,7 @@ LARGEST_DIFFERENCE_DEG = 0.1
 BORDER_PX = 2.0
 PARTS = {"q": "/a/l", "q_d": "/a/g", "q of FL": "/a/r0"}
 
-# Angles about the vertical on the picture, in degrees, by what turns: from the axis down is 0,
+# Angles about the vertical on the picture, in degrees, by what turns: down from the axis is 0,
 # counter-clockwise is positive. The 3D view's are of its front camera.
 ANGLES_3D = """parts => {
     const { __viserMutable: viser } = document.querySelector("iframe").contentWindow;
@@ -57,7 +57,7 @@ ANGLES_2D = """() => {
 
 @pytest.fixture(scope="module")
 def flat_browser(launch_browser: Callable[..., Browser]) -> Iterator[Browser]:
-    """A Chromium that draws no WebGL."""
+    """A Chromium without WebGL."""
     browser = launch_browser(args=[*ARGUMENTS, "--disable-3d-apis"])
     yield browser
     browser.close()
@@ -77,7 +77,7 @@ def open_flat(page: Page, lab: Lab) -> None:
     expect(page.get_by_role("img", name=PICTURE)).to_be_visible()
 
 
-def test_the_view_states_why_there_is_no_3d_and_draws_the_same_poses(
+def test_view_states_why_there_is_no_3d_and_draws_the_same_poses(
     flat: Page, own_page: Page, lab: Lab
 ) -> None:
     comparisons = {"comparisons": [{"law": "fl"}]}
@@ -110,8 +110,8 @@ def test_the_view_states_why_there_is_no_3d_and_draws_the_same_poses(
 
 
 @pytest.mark.parametrize(("width", "height"), [(1440, 900), (390, 844)])
-def test_the_tour_points_at_what_is_there(flat: Page, lab: Lab, width: int, height: int) -> None:
-    """At each step its frame lies around something that is drawn."""
+def test_tour_points_at_existing_elements(flat: Page, lab: Lab, width: int, height: int) -> None:
+    """At each step its frame surrounds a drawn element."""
     lab.jump(1)
     flat.set_viewport_size({"width": width, "height": height})
     flat.goto(lab.url)
@@ -132,10 +132,10 @@ def test_the_tour_points_at_what_is_there(flat: Page, lab: Lab, width: int, heig
 
 
 @pytest.mark.parametrize("kind", ["paper", "mass"])
-def test_the_papers_load_is_drawn_as_torques_and_a_mass_as_a_mass(
+def test_papers_load_is_drawn_as_torques_and_a_mass_as_a_mass(
     flat: Page, lab: Lab, kind: str
 ) -> None:
-    """Also where no plot shows the disturbance."""
+    """Also if no plot shows the disturbance."""
     flat.add_init_script("""localStorage.setItem("svsa.plots", '[{"preset": "error"}]')""")
     lab.client.post(lab.session + "/loads", json={"kind": kind}).raise_for_status()
     lab.jump(1)

@@ -1,4 +1,4 @@
-"""The page of a returning visitor on each kind of plant, and what is wrong with it at each size."""
+"""The page of a returning visitor on each kind of plant, and its problems at each size."""
 
 from collections.abc import Iterator
 from functools import partial
@@ -24,12 +24,13 @@ PLANTS: dict[str, dict[str, Any] | None] = {
 }
 
 
-# Named apart from its function: a test imports the one and takes the other.
+# Not named like its function, since a test imports both.
 @pytest.fixture(name="visited", scope="module", params=exhaust(PLANTS, ["running bench"]))
 def visit(request: pytest.FixtureRequest, browser: Browser, shared_lab: Lab) -> Iterator[Page]:
-    """The page of a returning visitor, without the 3D view, on each kind of plant.
+    """Open the page of a returning visitor, without the 3D view, on each kind of plant.
 
-    From a figure on: lanes and loads that another module has left take room.
+    It starts with a figure, because lanes and loads of another test module would take space on the
+    page.
     """
     shared_lab.load_figure()
     context = browser.new_context()
@@ -46,7 +47,7 @@ def visit(request: pytest.FixtureRequest, browser: Browser, shared_lab: Lab) -> 
 
 @pytest.fixture(name="least_plot_px")
 def get_least_plot_px(visited: Page, request: pytest.FixtureRequest) -> int:
-    """How high a plot of this plant's page is at least."""
+    """Return the minimum height of a plot of this plant's page."""
     return LEAST_PLOT_PX[request.node.callspec.params["visited"]]
 
 
@@ -65,7 +66,7 @@ def measure(
     sizes: tuple[tuple[int, int], ...],
     least_plot_px: int | None = None,
 ) -> list[str]:
-    """Every problem at every size that is one for good, as a line."""
+    """Return every lasting problem at every size, as a line."""
     lines = []
     for width, height in sizes:
         resize(page, width, height)

@@ -13,7 +13,7 @@ from tests.waiting import follow_recording
 
 @pytest.fixture(scope="module")
 def lab(lab_without_runs: Lab) -> Lab:
-    """The shared lab, in which there are no runs but those of the module."""
+    """The shared lab with only the runs of the module."""
     return lab_without_runs
 
 
@@ -31,7 +31,7 @@ def recorded(lab: Lab) -> tuple[str, str]:
 
 @pytest.fixture
 def runs(lab: Lab, recorded: tuple[str, str]) -> Iterator[tuple[str, str]]:
-    """Both runs, which are afterwards what they were before."""
+    """Both runs, which are restored afterwards."""
     yield recorded
     for run, name, tags in zip(recorded, (BOTH, STIFF), (["class"], []), strict=True):
         path = f"/api/v1/runs/{run}"
@@ -43,6 +43,6 @@ def runs(lab: Lab, recorded: tuple[str, str]) -> Iterator[tuple[str, str]]:
 
 @pytest.fixture
 def without_replay(page: Page) -> None:
-    """The frame of a replay stays empty, for tests that do not look at it: it has a 3D view."""
+    """The frame of a replay stays empty, for tests that do not need its 3D view."""
     empty = {"body": "<p>No replay</p>", "content_type": "text/html"}
     page.route(re.compile(r"/replay(\?|$)"), lambda route: route.fulfill(**empty))

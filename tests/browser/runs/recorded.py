@@ -1,4 +1,4 @@
-"""Runs as they are recorded for these tests, and where the page shows them."""
+"""Recording of the runs of these tests, and their places on the page."""
 
 import re
 
@@ -11,7 +11,7 @@ BOTH, STIFF = "Both laws at 15 N·m/rad", "Stiff and alone"
 
 
 def record(lab: Lab, name: str, figure: str, comparisons: list[str], tags: list[str]) -> str:
-    """A run of a figure of the paper with its load at 5 s, recorded from t = 0."""
+    """Record a figure of the paper with its load at 5 s, from t = 0."""
     lab.load_figure(figure, load=True)
     lab.client.post(lab.session + "/pause").raise_for_status()
     lab.client.post(lab.session + "/reset").raise_for_status()
@@ -30,7 +30,7 @@ def open_list(page: Page, lab: Lab) -> None:
 
 
 def find_names(page: Page) -> Locator:
-    """What the runs of the table are called, from the top."""
+    """Return the names of the runs in the table, from the top."""
     return page.get_by_role("table", name="Recorded runs").locator(".run-title > :first-child")
 
 
@@ -39,5 +39,5 @@ def find_replay(page: Page) -> FrameLocator:
 
 
 def is_change(answer: Response) -> bool:
-    """Whether it answers what was changed about a run."""
+    """Whether this answers a change of a run."""
     return answer.request.method == "PATCH"

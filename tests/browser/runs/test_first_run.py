@@ -1,4 +1,4 @@
-"""Where nothing is recorded the page tells how; then the first run is there."""
+"""Without runs the page explains how to record one; then the first run is listed."""
 
 import re
 
@@ -11,7 +11,7 @@ from tests.lab import Lab
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
 
 
-def test_nothing_recorded_tells_how_and_then_the_run_is_there(page: Page, lab: Lab) -> None:
+def test_empty_list_has_instructions_and_then_the_first_run(page: Page, lab: Lab) -> None:
     lab.load_figure()
     open_page(page, lab)
     expect(page.get_by_role("button", name="Record", exact=True)).to_be_enabled()

@@ -1,4 +1,4 @@
-"""The list of runs: found, filtered, sorted, tagged, deleted and taken back."""
+"""The list of runs: searched, filtered, sorted, tagged, deleted and restored."""
 
 import pytest
 from playwright.sync_api import Page, expect
@@ -10,7 +10,7 @@ pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without
 
 
 @pytest.mark.smoke
-def test_runs_are_found_by_what_is_seen_filtered_and_sorted(
+def test_runs_are_searched_by_visible_text_filtered_and_sorted(
     page: Page, lab: Lab, runs: tuple[str, str]
 ) -> None:
     open_list(page, lab)
@@ -37,7 +37,7 @@ def test_runs_are_found_by_what_is_seen_filtered_and_sorted(
 
 
 @pytest.mark.usefixtures("without_replay")
-def test_a_tag_is_given_on_the_page_of_a_run_and_filters_the_table(
+def test_tag_is_added_on_the_page_of_a_run_and_filters_the_table(
     page: Page, lab: Lab, runs: tuple[str, str]
 ) -> None:
     page.goto(f"{lab.url}/?run={runs[1]}")
@@ -57,7 +57,7 @@ def test_a_tag_is_given_on_the_page_of_a_run_and_filters_the_table(
     assert lab.client.get(f"/api/v1/runs/{runs[1]}").json()["tags"] == []
 
 
-def test_a_run_that_is_not_there_says_so_and_leads_back(
+def test_missing_run_is_reported_with_a_link_back(
     page: Page, lab: Lab, runs: tuple[str, str]
 ) -> None:
     page.goto(f"{lab.url}/?run=20200101-000000-deadbeef")
@@ -71,7 +71,9 @@ NAMES_CUT = """() => [...document.querySelectorAll(".run-title > :first-child")]
     .filter((one) => one.scrollWidth > one.clientWidth + 1).map((one) => one.innerText)"""
 
 
-def test_a_run_is_named_whole_next_to_its_tags(page: Page, lab: Lab, runs: tuple[str, str]) -> None:
+def test_name_of_a_run_is_complete_next_to_its_tags(
+    page: Page, lab: Lab, runs: tuple[str, str]
+) -> None:
     tags = {"name": "", "tags": ["stiff", "before the holidays", "group 3"]}
     lab.client.patch(f"/api/v1/runs/{runs[0]}", json=tags).raise_for_status()
     open_list(page, lab)
@@ -80,7 +82,7 @@ def test_a_run_is_named_whole_next_to_its_tags(page: Page, lab: Lab, runs: tuple
     assert page.evaluate(NAMES_CUT) == []
 
 
-def test_a_deleted_run_is_taken_back_at_once_or_from_the_trash(
+def test_deleted_run_is_restored_immediately_or_from_the_trash(
     page: Page, lab: Lab, runs: tuple[str, str]
 ) -> None:
     open_list(page, lab)
@@ -95,7 +97,7 @@ def test_a_deleted_run_is_taken_back_at_once_or_from_the_trash(
     page.get_by_role("button", name="Trash").click()
     restore = page.get_by_role("button", name=f"Restore {STIFF}")
     expect(restore.first).to_be_visible()
-    others = restore.count() - 1  # of the same name, which another module has deleted
+    others = restore.count() - 1  # of the same name, deleted by another module
     restore.first.click()
     expect(restore).to_have_count(others)
     page.get_by_role("button", name="Trash").click()

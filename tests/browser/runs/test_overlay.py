@@ -1,4 +1,4 @@
-"""Runs laid over one another."""
+"""Overlay of runs."""
 
 import re
 
@@ -16,7 +16,7 @@ NUMBERS_CUT = """() => [...document.querySelectorAll(".overlay-table td, .overla
 
 
 @pytest.mark.exhaustive
-def test_on_a_phone_the_numbers_of_an_overlay_come_next_to_the_whole_names(
+def test_numbers_of_an_overlay_are_next_to_complete_names_on_a_phone(
     page: Page, lab: Lab, runs: tuple[str, str]
 ) -> None:
     long = "A name as long as a user types it who does not think of tables, not even of one"
@@ -39,9 +39,7 @@ def test_on_a_phone_the_numbers_of_an_overlay_come_next_to_the_whole_names(
 
 
 @pytest.mark.smoke
-def test_runs_are_laid_over_one_another_from_their_load_on(
-    page: Page, lab: Lab, runs: tuple[str, str]
-) -> None:
+def test_runs_are_aligned_at_their_load(page: Page, lab: Lab, runs: tuple[str, str]) -> None:
     open_list(page, lab)
     overlay = page.get_by_role("button", name="Overlay runs")
     expect(overlay).to_be_disabled()

@@ -1,4 +1,4 @@
-"""The replay on the page of a run: awaited, refused, left out, opened by a link."""
+"""The replay on the page of a run: loading, rejected, omitted, opened by a link."""
 
 import json
 import re
@@ -22,9 +22,7 @@ def read_moment(page: Page) -> float:
 
 
 @pytest.mark.exhaustive
-def test_a_replay_that_takes_its_time_is_reported(
-    page: Page, lab: Lab, runs: tuple[str, str]
-) -> None:
+def test_slow_replay_is_reported(page: Page, lab: Lab, runs: tuple[str, str]) -> None:
     held: list[Route] = []
     page.route("**/replay", lambda route: held.append(route))
     page.goto(f"{lab.url}/?run={runs[1]}", wait_until="commit")
@@ -37,7 +35,7 @@ def test_a_replay_that_takes_its_time_is_reported(
 
 
 @pytest.mark.usefixtures("without_replay")
-def test_a_replay_that_is_refused_says_why_and_can_be_asked_for_again(
+def test_rejected_replay_has_a_reason_and_can_be_requested_again(
     page: Page, lab: Lab, runs: tuple[str, str]
 ) -> None:
     refusal = {"type": "urn:svsa:problem:busy", "detail": "Too many wait: ask again in 5 s."}
@@ -51,7 +49,7 @@ def test_a_replay_that_is_refused_says_why_and_can_be_asked_for_again(
     expect(reported).to_have_count(0)
 
 
-def test_a_run_in_which_nothing_ran_says_so_in_place_of_a_replay(page: Page, lab: Lab) -> None:
+def test_empty_run_is_reported_in_place_of_a_replay(page: Page, lab: Lab) -> None:
     lab.load_figure()
     lab.client.post(lab.session + "/pause").raise_for_status()
     answer = lab.client.post(lab.session + "/recording", json={}).raise_for_status().json()
@@ -63,7 +61,7 @@ def test_a_run_in_which_nothing_ran_says_so_in_place_of_a_replay(page: Page, lab
     lab.client.delete(f"/api/v1/runs/{run_id}").raise_for_status()
 
 
-def test_a_link_opens_the_same_run_at_the_same_moment(
+def test_link_opens_the_same_run_at_the_same_time(
     page: Page, lab: Lab, runs: tuple[str, str]
 ) -> None:
     page.goto(f"{lab.url}/?run={runs[0]}&t=5.25")

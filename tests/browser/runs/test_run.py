@@ -17,7 +17,7 @@ PATIENCE_MS = 60_000
 
 @pytest.mark.exhaustive
 @pytest.mark.usefixtures("without_replay")
-def test_no_control_of_the_live_session_stands_above_a_replay(
+def test_replay_has_no_controls_of_the_live_session(
     page: Page, lab: Lab, runs: tuple[str, str]
 ) -> None:
     page.goto(f"{lab.url}/?run={runs[1]}")
@@ -32,7 +32,7 @@ def test_no_control_of_the_live_session_stands_above_a_replay(
 
 
 @pytest.mark.usefixtures("without_replay")
-def test_a_run_is_renamed_and_written_about(page: Page, lab: Lab, runs: tuple[str, str]) -> None:
+def test_run_is_renamed_and_annotated(page: Page, lab: Lab, runs: tuple[str, str]) -> None:
     page.goto(f"{lab.url}/?run={runs[1]}")
     name = page.get_by_role("textbox", name="Name")
     expect(name).to_have_value(STIFF)
@@ -51,7 +51,7 @@ def test_a_run_is_renamed_and_written_about(page: Page, lab: Lab, runs: tuple[st
 
 
 @pytest.mark.usefixtures("without_replay")
-def test_a_branch_is_a_private_session_that_stands_at_the_moment(
+def test_branch_is_a_paused_private_session_at_the_selected_time(
     page: Page, lab: Lab, runs: tuple[str, str]
 ) -> None:
     page.goto(f"{lab.url}/?run={runs[0]}&t=6")
@@ -73,7 +73,7 @@ def test_a_branch_is_a_private_session_that_stands_at_the_moment(
 
 
 @pytest.mark.usefixtures("without_replay")
-def test_a_run_of_a_bench_cannot_be_branched_and_the_page_says_why(
+def test_run_of_a_bench_cannot_be_branched_with_a_reason(
     page: Page, lab: Lab, runs: tuple[str, str]
 ) -> None:
     def report_bench(route: Route) -> None:
@@ -87,8 +87,8 @@ def test_a_run_of_a_bench_cannot_be_branched_and_the_page_says_why(
 
 
 @pytest.mark.usefixtures("without_replay")
-def test_a_run_is_exported_in_every_format(page: Page, lab: Lab, runs: tuple[str, str]) -> None:
-    """HTML takes long: the page says that it is being made, and that it is saved."""
+def test_run_is_exported_in_every_format(page: Page, lab: Lab, runs: tuple[str, str]) -> None:
+    """HTML takes some time: the page reports that it is being created, and that it is saved."""
     page.goto(f"{lab.url}/?run={runs[1]}")
     for kind in ("CSV", "Parquet", "MAT", "MCAP", "HTML"):
         page.get_by_text("Export", exact=True).click()
