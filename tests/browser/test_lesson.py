@@ -1,4 +1,4 @@
-"""An exercise next to the live lab, as a hand that has only a keyboard goes through it."""
+"""An exercise next to the live lab, completed with the keyboard alone."""
 
 import re
 from functools import partial
@@ -23,14 +23,14 @@ MAX_TABS = 12
 LONG_MS = 90_000
 
 
-class Hand:
-    """A hand on the keyboard, at an exercise that is open."""
+class KeyboardStudent:
+    """A student with a keyboard only, at an open exercise."""
 
     def __init__(self, page: Page, exercise: Exercise) -> None:
         self.page, self.exercise = page, exercise
 
-    def go_on(self, name: str) -> None:
-        """Tab to what is called so, which must not be far, and press it."""
+    def press_next(self, name: str) -> None:
+        """Tab to a nearby control with this name, and press it."""
         named = self.page.locator("a, button").filter(has_text=re.compile(f"^{name}"), visible=True)
         expect(named.first).to_be_enabled()
         for _ in range(MAX_TABS):
@@ -41,7 +41,7 @@ class Hand:
         raise AssertionError(f"{name} is more than {MAX_TABS} tabs away")
 
     def go_to_step(self, title: str) -> None:
-        self.go_on("Next")
+        self.press_next("Next")
         expect(self.page.get_by_role("heading", name=title)).to_be_focused()
 
     def predict(self, answer: float) -> None:
@@ -51,13 +51,23 @@ class Hand:
         self.page.keyboard.press("Enter")
         expect(self.page.get_by_text(f"You predicted {number}")).to_be_visible()
 
+    def open_arm(self, step: Experiment) -> None:
+        """Leave the session of a single joint; the page is loaded again at the same step."""
+        self.press_next("Open session of arm")
+        self.page.wait_for_url("**session=private**", timeout=LONG_MS)
+        heading = self.page.get_by_role("heading", name=step.title)
+        expect(heading).to_be_visible()
+        heading.focus()
+
     def experiment(self, step: Experiment) -> None:
+        if step.arm and "session=" not in self.page.url:
+            self.open_arm(step)
         if step.free:
-            self.go_on("Set up")
+            self.press_next("Set up")
             expect(self.page.get_by_role("button", name="Run and record")).to_be_enabled()
-            self.go_on("Run and record")
+            self.press_next("Run and record")
         else:
-            self.go_on("Set up and run")
+            self.press_next("Set up and run")
         expect(self.find_results().get_by_role("listitem").first).to_be_visible(timeout=LONG_MS)
         expect(self.page.get_by_text("Saved:")).to_be_hidden()
 
@@ -74,8 +84,8 @@ class Hand:
 
     def submit(self) -> None:
         if self.exercise.takes_law:
-            self.go_on("Insert the law above")
-            self.go_on("Test and save")
+            self.press_next("Insert the law above")
+            self.press_next("Test and save")
             tried = self.page.get_by_text(re.compile("^(Passed|Saved, not tested)")).first
             expect(tried).to_be_visible(timeout=LONG_MS)
         self.page.keyboard.press("Tab")
@@ -83,8 +93,8 @@ class Hand:
         self.page.keyboard.press("Enter")
 
 
-def walk(hand: Hand) -> None:
-    """From the first step to the submission; settings that are free stay as they were."""
+def complete(hand: KeyboardStudent) -> None:
+    """Complete the exercise from the first step to the submission with its default settings."""
     first, *others = hand.exercise.steps
     expect(hand.page.get_by_role("heading", name=first.title)).to_be_focused()
     answers, _ = RIGHT[hand.exercise.name]
@@ -99,8 +109,8 @@ def walk(hand: Hand) -> None:
     hand.submit()
 
 
-def test_the_table_of_the_lanes_stays_in_its_column(page: Page, still_lab: Lab) -> None:
-    """With the longest name and the longest values: a load that has made errors of both."""
+def test_table_of_the_lanes_stays_in_its_column(page: Page, still_lab: Lab) -> None:
+    """With the longest name and the longest values: a load that causes both errors."""
     still_lab.load_figure(load=True)
     comparisons = {"comparisons": [{"law": "prescribed_performance"}]}
     still_lab.client.put(still_lab.session + "/lanes", json=comparisons).raise_for_status()
@@ -119,14 +129,14 @@ def is_as_wide_as_the_view(page: Page) -> bool:
 
 
 @pytest.mark.parametrize("name", exhaust([*RIGHT], ["mechanism"]))
-def test_an_exercise_is_done_and_submitted_by_keyboard(page: Page, lab: Lab, name: str) -> None:
+def test_exercise_is_completed_and_submitted_by_keyboard(page: Page, lab: Lab, name: str) -> None:
     exercise = find_exercise(name)
     lab.client.put(lab.session + "/speed", json={"speed": "max"}).raise_for_status()
     begin = {"step": exercise.steps[0].name}
     lab.client.put(f"/api/v1/course/{name}/place", json=begin).raise_for_status()
     page.goto(lab.url + "/learn")
     page.get_by_role("link", name=re.compile(exercise.title)).press("Enter")
-    walk(Hand(page, exercise))
+    complete(KeyboardStudent(page, exercise))
     most = f"{exercise.max_points:g}"
     is_free = any(isinstance(one, Experiment) and one.free for one in exercise.steps)
     points = r"[\d.]+" if is_free else most

@@ -1,4 +1,4 @@
-"""From clicks to scripts: the calls behind the page, and the script that repeats an experiment."""
+"""From clicks to scripts: the calls of the page, and the script that repeats an experiment."""
 
 import re
 import subprocess
@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
+from tests.browser.test_arm import Arm, open_arm
 from tests.browser.test_page import choose, choose_law, open_page
 from tests.lab import Lab
 
@@ -72,7 +73,7 @@ def test_every_action_shows_its_call_in_python_and_curl(page: Page, lab: Lab) ->
     )
 
 
-def test_the_experiment_as_a_script_repeats_it_and_disturbs_no_user(
+def test_experiment_as_a_script_repeats_it_and_disturbs_no_user(
     page: Page, lab: Lab, tmp_path: Path
 ) -> None:
     open_page(page, lab)
@@ -112,8 +113,20 @@ def test_the_experiment_as_a_script_repeats_it_and_disturbs_no_user(
     assert len(lab.client.get("/api/v1/sessions").json()) == sessions
 
 
+def test_script_of_an_arm_is_saved_or_its_problem_is_shown(page: Page, lab: Lab) -> None:
+    open_arm(page, lab, Arm(lab))
+    drawer = open_drawer(page)
+    with page.expect_download() as download:
+        drawer.get_by_role("button", name="Save .py").click()
+    assert 'settings = {"arm": "rods",' in download.value.path().read_text(encoding="utf-8")
+    problem = {"problem": "Its limits are different."}
+    page.route("**/origin", lambda route: route.fulfill(json=route.fetch().json() | problem))
+    drawer.get_by_role("button", name="Save .py").click()
+    expect(drawer.get_by_role("alert")).to_have_text("Its limits are different.")
+
+
 @pytest.mark.exhaustive
-def test_a_script_stops_where_the_lab_refuses(page: Page, lab: Lab, tmp_path: Path) -> None:
+def test_script_stops_where_the_lab_rejects_a_call(page: Page, lab: Lab, tmp_path: Path) -> None:
     open_page(page, lab)
     drawer = open_drawer(page)
     with page.expect_download() as download:
