@@ -50,6 +50,8 @@ nb_output_stderr = "error"
 
 autodoc_typehints = "description"
 autodoc_member_order = "bysource"
+# As entries of their own, fields of named tuples would be described twice.
+napoleon_use_ivar = True
 python_use_unqualified_type_names = True
 
 html_theme = "furo"
@@ -57,6 +59,7 @@ html_title = f"{project} {version}"
 html_show_sourcelink = False
 html_copy_source = False
 html_static_path = ["_static"]
+templates_path = ["_templates"]
 html_css_files = ["site.css"]
 
 
@@ -120,6 +123,36 @@ def write_formula(translator: HTML5Translator, node: nodes.math_block) -> None:
     raise nodes.SkipNode
 
 
+def write_code(translator: HTML5Translator, node: nodes.literal_block) -> None:
+    """Write a code block that the keyboard reaches, because a long line makes it scroll."""
+    try:
+        HTML5Translator.visit_literal_block(translator, node)
+    finally:
+        translator.body[-1] = translator.body[-1].replace("<pre", '<pre tabindex="0"', 1)
+
+
+def open_container(translator: HTML5Translator, node: nodes.container) -> None:
+    """Open a container; the keyboard reaches one of the theme's, which scrolls."""
+    HTML5Translator.visit_container(translator, node)
+    if {"table-wrapper", "math-wrapper"} & set(node["classes"]):
+        translator.body[-1] = translator.body[-1].replace("<div", '<div tabindex="0"', 1)
+
+
+def open_cell(translator: HTML5Translator, node: nodes.entry) -> None:
+    """Open a cell of a table; an empty one heads no column or row."""
+    HTML5Translator.visit_entry(translator, node)
+    if not node.astext():
+        translator.body[-1] = translator.body[-1].replace("<th", "<td", 1)
+        translator.context[-1] = translator.context[-1].replace("</th", "</td", 1)
+
+
+ACCESSIBLE = {
+    nodes.literal_block: (write_code, HTML5Translator.depart_literal_block),
+    nodes.container: (open_container, HTML5Translator.depart_container),
+    nodes.entry: (open_cell, HTML5Translator.depart_entry),
+}
+"""Nodes that keyboard or screen reader need otherwise than Sphinx writes them."""
+
 INCLUDED = {
     "../svsa/README.md": "reference/equations.md",
     "../CHANGELOG.md": "reference/changelog.md",
@@ -145,6 +178,8 @@ def setup(app: Sphinx) -> None:
     """Install the hooks: for docstrings before napoleon, for the navigation after the theme."""
     app.connect("html-page-context", add_heading_level, priority=900)
     app.connect("source-read", link_included)
+    for node, hooks in ACCESSIBLE.items():
+        app.add_node(node, override=True, html=hooks)
     app.add_html_math_renderer("mathml", (write_inline_formula, None), (write_formula, None))
     app.connect("autodoc-process-docstring", escape_docstring, priority=100)
     app.connect("doctree-resolved", lower_subscripts)

@@ -3,10 +3,10 @@
     python -m tests.docs.pages PAGE LANGUAGE,… [WRITTEN=HERE …]
 
 A block ```python is run, a block ```console by bash, without its prompts. A block ```text that
-follows Python code is what the code prints: a page that shows this for one block shows it for each.
-The Python blocks of a page share their names. WRITTEN is a text of the page, such as the address of
-the lab, and HERE what it is replaced by. A page is run in a process of its own, since examples
-interrupt it and start a cluster.
+follows Python code is the output of the code: a page that shows the output of one block shows it
+for each. The Python blocks of a page share their names. WRITTEN is a text of the page, such as the
+address of the lab, and HERE is its replacement. A page is run in a process of its own, since
+examples interrupt it and start a cluster.
 
 A comment before a block describes what is special about it:
 
@@ -35,7 +35,7 @@ BENCH = "svsa/hardware/emulator/bench.toml"
 
 OFFLINE = "python -m pip install --no-deps --no-index --no-build-isolation --target . ."
 INSTALL = {"$ pip install .\n": f"$ {OFFLINE}\n"}
-"""The installation of a package that a page writes, and what the tests do: into its folder."""
+"""The installation command of a page, and its offline replacement into the folder of the test."""
 
 COMMENT = re.compile(r"<!-- (file|not executed): (.+?) -->", re.DOTALL)
 PROMPT = "$ "
@@ -44,7 +44,7 @@ RUN = ("python", "console")
 
 
 class Block(NamedTuple):
-    """A code block. line: its first line in the file; note, subject: of the comment before it."""
+    """A code block. line: first line in the file; note, subject: from the comment before it."""
 
     language: str
     text: str
@@ -58,7 +58,7 @@ class Block(NamedTuple):
 
 
 def read_blocks(path: Path) -> Iterator[Block]:
-    """The code blocks of a page; the tables of contents are none."""
+    """Read the code blocks of a page, without the tables of contents."""
     note = subject = ""
     for token in MarkdownIt().parse(path.read_text(encoding="utf-8")):
         if token.type == "html_block" and token.content.startswith("<!--"):
@@ -72,7 +72,7 @@ def read_blocks(path: Path) -> Iterator[Block]:
 
 
 def needs_lab(path: Path) -> bool:
-    """Whether a block that is run connects to a lab."""
+    """Whether an executed block connects to a lab."""
     return any(LAB in block.text for block in read_blocks(path) if block.is_run)
 
 
@@ -105,7 +105,7 @@ def start_page(
 
 
 def run_page(path: Path, replaced: Mapping[str, str], languages: Collection[str]) -> int:
-    """Run the blocks of a page in this process, and return how many were run."""
+    """Run the blocks of a page in this process, and return their number."""
     names: dict[str, object] = {"__name__": "__main__"}
     count, printed, unshown = 0, "", ""
     is_shown = False
@@ -135,7 +135,7 @@ def run_page(path: Path, replaced: Mapping[str, str], languages: Collection[str]
 
 
 def run_commands(text: str, place: str) -> None:
-    """Run what follows the prompts; what has none is the output of the command."""
+    """Run the commands after the prompts; lines without a prompt are the output."""
     lines = [line.removeprefix(PROMPT) for line in text.splitlines() if line.startswith(PROMPT)]
     assert lines, f"{place}: no command after a prompt"
     script = "\n".join(["set -euo pipefail", *lines])
@@ -144,7 +144,7 @@ def run_commands(text: str, place: str) -> None:
 
 
 if __name__ == "__main__":
-    # A shell starts what runs in the background with an interrupt that is ignored.
+    # A shell starts background processes with interrupts ignored.
     signal.signal(signal.SIGINT, signal.default_int_handler)
     page, languages, *texts = sys.argv[1:]
     replacements = dict(text.split("=", 1) for text in texts)

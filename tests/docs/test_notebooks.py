@@ -23,7 +23,7 @@ def check_first_script(printed):
     assert len(rows) == 4
     assert ideal == sorted(ideal, reverse=True)
     assert noise == sorted(noise)
-    # The text gives the rig encoders and a delay, and no sensor noise.
+    # The text states that the rig has encoders and a delay, and no sensor noise.
     assert svsa.RIG.encoders
     assert svsa.RIG.delay_samples
     assert svsa.RIG.noise is None
@@ -37,12 +37,12 @@ def check_own_law(printed):
 
 
 CLAIMS = {"first_script": check_first_script, "own_law": check_own_law}
-"""What the text of a notebook says of the output of its cells."""
+"""Checks of what the text of a notebook states about the output of its cells."""
 
 
 @pytest.mark.exhaustive
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
-def test_a_notebook_runs_and_is_kept_without_what_it_printed(path, tmp_path, monkeypatch):
+def test_notebook_runs_and_is_stored_without_output(path, tmp_path, monkeypatch):
     notebook = nbformat.read(path, as_version=4)
     cells = [cell for cell in notebook.cells if cell.cell_type == "code"]
     assert not any(cell.outputs or cell.execution_count for cell in cells)

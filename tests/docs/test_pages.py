@@ -1,4 +1,4 @@
-"""The commands and the Python code of the documentation run as they are written."""
+"""The commands and the Python code of the documentation run unchanged."""
 
 import os
 
@@ -11,7 +11,8 @@ from tests.lab import run_lab
 
 TUTORIALS = ROOT / "docs" / "tutorials"
 GUIDES = [*sorted(TUTORIALS.glob("*.md")), *sorted((ROOT / "docs/howto").glob("*.md"))]
-EXAMPLES = [ROOT / name for name in ("README.md", "docs/grading.md", "docs/scripting.md")]
+PAGES = ("README.md", "docs/grading.md", "docs/scripting.md", "docs/explanation/arm.md")
+EXAMPLES = [ROOT / name for name in PAGES]
 ON_BENCH = TUTORIALS / "emulated_bench.md"
 OWN_ACTUATOR = TUTORIALS / "own_actuator.md"
 RUN = [
@@ -20,7 +21,7 @@ RUN = [
     if page not in (ON_BENCH, OWN_ACTUATOR) and any(block.is_run for block in read_blocks(page))
 ]
 IN_BROWSER = {"browser": "tests/browser/test_first_hour.py"}
-"""The tutorial that a user follows on the page, and the test that does so."""
+"""The tutorial in the browser, and the test that follows it."""
 LANGUAGES = {"python", "console", "toml", "text", "yaml", "matlab", "bibtex", "{toctree}"}
 
 
@@ -30,13 +31,13 @@ def name(page):
 
 @pytest.mark.exhaustive
 @pytest.mark.parametrize("page", RUN, ids=name)
-def test_the_code_of_a_page_runs_and_prints_what_it_shows(page, tmp_path, request):
+def test_code_of_a_page_runs_and_prints_the_shown_output(page, tmp_path, request):
     lab = request.getfixturevalue("lab") if needs_lab(page) else None
     start_page(page, tmp_path, INSTALL | ({LAB: lab.url} if lab else {}))
 
 
 @pytest.mark.wall_clock
-def test_the_tutorial_of_the_emulated_bench_runs_over_a_bus_between_processes(tmp_path):
+def test_emulated_bench_tutorial_runs_over_a_bus_between_processes(tmp_path):
     # The check waits for the clock, which an emulator in lockstep does not follow.
     with start_emulator(lockstep=False) as emulator:
         bench = write_bench(tmp_path, emulator, lockstep=False)
@@ -48,7 +49,7 @@ def test_the_tutorial_of_the_emulated_bench_runs_over_a_bus_between_processes(tm
 
 
 @pytest.mark.exhaustive
-def test_the_tutorial_of_an_own_actuator_installs_it_where_the_lab_finds_it(tmp_path, monkeypatch):
+def test_own_actuator_tutorial_installs_it_for_the_lab(tmp_path, monkeypatch):
     start_page(OWN_ACTUATOR, tmp_path, INSTALL, ["console"])
     monkeypatch.setenv("PYTHONPATH", f"{ROOT}{os.pathsep}{tmp_path}")
     with run_lab() as lab:
@@ -65,7 +66,7 @@ def test_each_tutorial_is_executed():
 
 
 @pytest.mark.parametrize("guide", GUIDES, ids=name)
-def test_a_block_is_run_or_states_why_not(guide):
+def test_block_is_executed_or_states_why_not(guide):
     for block in read_blocks(guide):
         assert block.language in LANGUAGES, f"line {block.line}: {block.language!r}"
         if block.note == "not executed":
@@ -73,7 +74,7 @@ def test_a_block_is_run_or_states_why_not(guide):
 
 
 @pytest.mark.parametrize("section", ["tutorials", "howto"])
-def test_the_index_of_a_section_lists_each_page(section):
+def test_section_index_lists_each_page(section):
     pages = {page.stem for page in (ROOT / "docs" / section).iterdir()} - {"index"}
     (contents,) = (
         block.text

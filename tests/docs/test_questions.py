@@ -35,7 +35,8 @@ IDENTIFIER = re.compile(r'\sid="([^"]+)"')
 class SitePage(HTMLParser):
     """The text of a page's article, and the links that a reader of the page sees.
 
-    These are the links of the article, and of the sidebar those that need not be unfolded.
+    These are the links of the article, and the links of the sidebar that are visible without
+    unfolding it.
     """
 
     def __init__(self, text: str) -> None:
@@ -73,14 +74,14 @@ class SitePage(HTMLParser):
 
 
 def read_page(path: Path) -> SitePage:
-    # A cell of a table ends a word.
+    # A table cell ends a word.
     return SitePage(
         re.sub(r"</(td|th|p|dt|dd|li|h\d)>", r" </\1>", path.read_text(encoding="utf-8"))
     )
 
 
 def follow_links(folder: Path, name: str) -> Iterator[str]:
-    """The pages that a page links to, by their paths in the folder."""
+    """The pages linked from a page, as paths in the folder."""
     for link in read_page(folder / name).links:
         path = urlsplit(urljoin(f"/{name}", link)).path.lstrip("/")
         if not urlsplit(link).scheme and (folder / path).suffix == ".html":
@@ -105,7 +106,7 @@ def near(site: Path) -> dict[str, str]:
 
 
 @pytest.mark.parametrize("question", QUESTIONS)
-def test_a_question_of_a_new_user_is_answered_within_two_clicks(question, near):
+def test_newcomer_question_is_answered_within_two_clicks(question, near):
     answer = QUESTIONS[question]
     assert [name for name, text in near.items() if answer in text], f"{len(near)} pages"
 
@@ -116,7 +117,7 @@ def read_target(site: Path, name: str, link: str) -> tuple[Path, str]:
     return site / unquote(parts.path).lstrip("/"), unquote(parts.fragment)
 
 
-def test_every_link_of_the_site_leads_to_a_place(site):
+def test_every_link_of_the_site_has_a_target(site):
     pages = {path: path.read_text(encoding="utf-8") for path in site.rglob("*.html")}
     places = {path: set(IDENTIFIER.findall(text)) for path, text in pages.items()}
     broken = []
@@ -133,13 +134,13 @@ def test_every_link_of_the_site_leads_to_a_place(site):
 
 
 @pytest.mark.parametrize("law", list_law_names())
-def test_a_command_of_a_formula_does_not_run_into_a_letter(law):
-    """A missing blank, as in `\\quadB`, is an unknown command, which readers see as text."""
+def test_formula_command_is_separated_from_the_next_letter(law):
+    r"""A missing blank, as in `\quadB`, is an unknown command, which readers see as text."""
     assert not re.search(r"\\q?quad[A-Za-z]", get_law(law).equation)
 
 
-def test_formulas_are_drawn_by_the_browser_without_a_script(site):
-    """MathML: the site has no script for formulas, and none may come from elsewhere."""
+def test_formulas_are_rendered_without_a_script(site):
+    """MathML: the site has no script for formulas, and must load none from elsewhere."""
     for path in (site / "laws").glob("*.html"):
         page = path.read_text(encoding="utf-8")
         assert "$$" not in read_page(path).text, path.name
