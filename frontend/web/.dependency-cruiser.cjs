@@ -1,13 +1,13 @@
-/** The page's folders, from top to bottom: a folder imports what lies below it, and nothing else. */
+/** The page's folders, from top to bottom: a folder may import only from folders below it. */
 const FOLDERS = [
   ["main"],
   ["debug", "docs", "runs/replay"],
   ["layout"],
-  ["evaluation/falsifier", "evaluation/ranking", "evaluation/studies"],
   ["teaching/classroom", "teaching/course", "teaching/grades", "teaching/leaderboard"],
+  ["evaluation/falsifier", "evaluation/ranking", "evaluation/studies"],
   ["lab/actuators", "lab/keys"],
   ["runs/list"],
-  ["lab/lease", "lab/panels", "lab/safety", "lab/scene", "lab/script"],
+  ["lab/arm", "lab/lease", "lab/panels", "lab/safety", "lab/scene", "lab/script"],
   ["lab/tuning"],
   ["hardware", "lab/design"],
   ["core/plots"],
@@ -17,7 +17,7 @@ const FOLDERS = [
   ["core/stream"],
   ["core/api"],
   ["core/quantities"],
-  ["core/icons", "core/text", "core/units"],
+  ["core/armgeometry", "core/icons", "core/text", "core/units"],
 ];
 
 const within = (folders) => `^src/(${folders.join("|")})(/|\\.tsx?$)`;

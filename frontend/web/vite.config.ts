@@ -1,10 +1,10 @@
 import type { Plugin } from "vite";
 import { defineConfig } from "vitest/config";
 
-/** Where `npm run dev` finds the lab: `svsa serve` with its default port. */
+/** The lab for `npm run dev`: `svsa serve` with its default port. */
 const SERVER = "http://127.0.0.1:8000";
 
-/** Puts script and style into the page itself, so that one file is all there is. */
+/** Inline script and style, so that the page is one file. */
 function inlineAssets(): Plugin {
   return {
     name: "svsa-inline-assets",
@@ -28,7 +28,7 @@ function inlineAssets(): Plugin {
   };
 }
 
-/** Leaves out what KaTeX brings for browsers that know no WOFF2. */
+/** Remove KaTeX's fonts for browsers without WOFF2. */
 function newFontsOnly(): Plugin {
   return {
     name: "svsa-new-fonts-only",
@@ -55,7 +55,10 @@ export const __vitePreload = async (fetchPart, styles = [], base) => {
   return fetchPart();
 };`;
 
-/** Before a part that is fetched later, its style sheet: Vite's own helper does more and is 2 kB larger. */
+/**
+ * Load the style sheet before a part that is loaded later: Vite's own helper does more and is 2 kB
+ * larger.
+ */
 function shortPreload(): Plugin {
   return {
     name: "svsa-short-preload",
@@ -70,7 +73,7 @@ export default defineConfig(({ mode }) => ({
   plugins: mode === "replay" ? [inlineAssets()] : [newFontsOnly(), shortPreload()],
   build: {
     outDir: "../../backend/svsa_server/page",
-    /** A page may load no font from its own text. */
+    /** A page must not load fonts from its own text. */
     assetsInlineLimit: (file) => (/\.(woff2?|ttf)$/.test(file) ? false : undefined),
     emptyOutDir: mode !== "replay",
     copyPublicDir: mode !== "replay",
@@ -90,11 +93,14 @@ export default defineConfig(({ mode }) => ({
   },
   test: {
     include: ["tests/**/*.test.ts"],
-    /** A process for each file costs three times what the tests do; `setup.ts` cleans up instead. */
+    /**
+     * One process per file would take three times as long as the tests; `setup.ts` cleans up
+     * instead.
+     */
     isolate: false,
     setupFiles: "tests/setup.ts",
     css: { include: [/theme\.css/] },
-    /** Only what hangs ends there: on a busy machine the first import alone may take 10 s. */
+    /** Only for tests that hang: on a busy machine the first import alone may take 10 s. */
     testTimeout: 60_000,
     hookTimeout: 60_000,
   },

@@ -21,12 +21,12 @@ def read_compose(name: str) -> dict:
     return yaml.safe_load((DEPLOY / f"{name}.yaml").read_text(encoding="utf-8"))
 
 
-def test_the_example_has_every_setting_with_its_default() -> None:
+def test_example_has_every_setting_with_its_default() -> None:
     assert (DEPLOY / "lab.env").read_text(encoding="utf-8") == write_example(), "run `make schema`"
 
 
 @pytest.mark.parametrize("name", LABS)
-def test_each_lab_extends_the_service_without_rights(name: str) -> None:
+def test_each_lab_extends_the_service_without_privileges(name: str) -> None:
     lab = read_compose(name)["services"]["lab"]
     assert lab["extends"] == {"file": "lab.yaml", "service": "lab"}
     common = read_compose("lab")["services"]["lab"]
@@ -38,7 +38,7 @@ def test_each_lab_extends_the_service_without_rights(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", LABS)
-def test_the_documented_command_sets_what_a_lab_requires(name: str) -> None:
+def test_documented_command_sets_the_required_variables(name: str) -> None:
     text = (DEPLOY / f"{name}.yaml").read_text(encoding="utf-8")
     required = set(re.findall(r"\$\{(\w+):\?", text))
     documented = (ROOT / "docs" / "howto" / "deploy.md").read_text(encoding="utf-8")
@@ -49,20 +49,20 @@ def test_the_documented_command_sets_what_a_lab_requires(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", ["lab", *LABS])
-def test_compose_files_set_settings_that_exist(name: str) -> None:
+def test_compose_files_set_existing_settings(name: str) -> None:
     known = {f"SVSA_{field.upper()}" for field in Settings.model_fields}
     text = (DEPLOY / f"{name}.yaml").read_text(encoding="utf-8")
     assert set(re.findall(r"SVSA_\w+", text)) <= known
 
 
-def test_the_image_installs_extras_that_exist() -> None:
+def test_image_installs_existing_extras() -> None:
     (extras,) = re.findall(r"^ARG EXTRAS=(.*)$", (ROOT / "Dockerfile").read_text(), re.MULTILINE)
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
     assert {*extras.split(",")} <= {*project["optional-dependencies"]}
 
 
-def test_the_image_has_every_file_that_the_guide_links_to() -> None:
-    """The guide is built with warnings as errors, so that a missing file ends the build."""
+def test_image_has_every_file_that_the_guide_links_to() -> None:
+    """The guide is built with warnings as errors, so a missing file stops the build."""
     copied = re.findall(r"^COPY (?!--)(.*) \S+$", (ROOT / "Dockerfile").read_text(), re.MULTILINE)
     sources = [(ROOT / name).resolve() for line in copied for name in line.split()]
     for page in [*DEPLOY.parent.rglob("*.md"), ROOT / "svsa" / "README.md", ROOT / "CHANGELOG.md"]:
@@ -91,8 +91,8 @@ def test_systemd_accepts_the_unit() -> None:
     assert all("is not executable" in line for line in problems), done.stderr
 
 
-def test_the_lab_runs_on_a_read_only_file_system(tmp_path: Path) -> None:
-    """As in the containers: only the data folder and /tmp can be written."""
+def test_lab_runs_on_a_read_only_file_system(tmp_path: Path) -> None:
+    """As in the containers: only the data folder and /tmp are writable."""
     script = """set -e
     for folder in "$0" /tmp; do mount --bind "$folder" "$folder"; done
     mount -o remount,bind,ro /

@@ -1,4 +1,4 @@
-"""Every public function documents its arguments, what it returns and what it raises."""
+"""Every public function documents its arguments, return value and exceptions."""
 
 import inspect
 
@@ -11,7 +11,7 @@ METHODS = [name for name, one in vars(svsa.Result).items() if inspect.isfunction
 
 
 def list_missing(function) -> list[str]:
-    """The sections that the docstring lacks."""
+    """Return the sections that the docstring lacks."""
     signature = inspect.signature(function)
     text = inspect.getdoc(function) or ""
     needed = {
@@ -25,17 +25,17 @@ def list_missing(function) -> list[str]:
 
 
 @pytest.mark.parametrize("name", FUNCTIONS)
-def test_a_public_function_has_every_section(name):
+def test_public_function_has_every_section(name):
     function = getattr(svsa, name)
     assert not list_missing(function)
     assert "Raises:" in inspect.getdoc(function)
 
 
-def test_every_public_function_has_a_summary_of_its_own():
+def test_every_public_function_has_its_own_summary():
     summaries = [inspect.getdoc(getattr(svsa, name)).partition("\n")[0] for name in FUNCTIONS]
     assert len({*summaries}) == len(summaries)
 
 
 @pytest.mark.parametrize("name", [name for name in METHODS if not name.startswith("_")])
-def test_a_method_of_a_result_has_its_sections(name):
+def test_method_of_a_result_has_its_sections(name):
     assert not list_missing(getattr(svsa.Result, name))

@@ -44,8 +44,8 @@ assert svsa.resimulate(Path(sys.argv[1])).identical
 
 
 @pytest.fixture(scope="module")
-def made(tmp_path_factory):
-    """What the script said with the package installed, and the record that it wrote."""
+def installed_run(tmp_path_factory):
+    """The output of the script with the package installed, and the record that it wrote."""
     folder = tmp_path_factory.mktemp("example")
     source, target = folder / "source", folder / "installed"
     shutil.copytree(EXAMPLE, source)
@@ -67,18 +67,18 @@ def made(tmp_path_factory):
 
 
 @pytest.mark.exhaustive
-def test_an_installed_law_is_found_next_to_the_others_and_controls(made):
-    (names, errors, *_), _ = made
+def test_installed_law_is_found_and_controls(installed_run):
+    (names, errors, *_), _ = installed_run
     assert set(names.split(",")) == {*list_law_names(), "motor_pd"}
     fast, slow = map(float, errors.split())
     assert fast != slow, "each lane has its own parameters"
     assert max(map(math.degrees, (fast, slow))) < 2.0
 
 
-def test_its_record_opens_where_it_is_not_installed_and_says_so_by_name(made):
-    record = open_record(made[1])
+def test_record_opens_without_the_package_and_names_the_missing_law(installed_run):
+    record = open_record(installed_run[1])
     assert "motor_pd" not in list_law_names()
-    result = svsa.open_run(made[1])
+    result = svsa.open_run(installed_run[1])
     assert result.law == "motor_pd"
     assert result.configuration.law == "motor_pd"
     assert "motor_pd (not installed)" in repr(result)
@@ -88,20 +88,20 @@ def test_its_record_opens_where_it_is_not_installed_and_says_so_by_name(made):
     assert parameters == {"frequency_rad_per_s": 20.0, "damping": 1.0}
 
 
-def test_lanes_and_replay_of_such_a_record_have_its_name(made):
-    record = open_record(made[1])
+def test_lanes_and_replay_of_such_a_record_have_its_name(installed_run):
+    record = open_record(installed_run[1])
     timeline = trace_record(record)
     assert timeline is not None
     names = name_lanes(list_record_segments(record, timeline))
     assert all(name.startswith("motor_pd (not installed)") for name in names)
     assert len(set(names)) == 2
-    configuration = svsa.open_run(made[1]).configuration
+    configuration = svsa.open_run(installed_run[1]).configuration
     event, *_ = list_events(configuration, [build_command(5, "law", "fl")])
     assert event.label == "motor_pd (not installed) → FL"
 
 
-def test_simulated_again_it_is_refused_with_the_laws_that_are_installed(made):
-    record = open_record(made[1])
+def test_resimulation_is_rejected_with_the_installed_laws(installed_run):
+    record = open_record(installed_run[1])
     words = "law is 'motor_pd': it must be a law that is installed here: ndobc, fl"
     with pytest.raises(svsa.ParameterError, match=words):
         compare_with_simulation(record)

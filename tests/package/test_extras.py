@@ -70,7 +70,7 @@ def say(call):
 
 
 def run_without(extras: tuple[str, ...], program: str) -> str:
-    """What a program prints in an interpreter that finds no package of these extras."""
+    """Return the output of a program in an interpreter without the packages of these extras."""
     code = f"EXTRAS = {extras!r}\n{HIDE}\n{program}"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=300)
     assert done.returncode == 0, done.stderr
@@ -78,7 +78,7 @@ def run_without(extras: tuple[str, ...], program: str) -> str:
 
 
 @pytest.mark.exhaustive
-def test_the_library_simulates_without_any_extra():
+def test_library_simulates_without_any_extra():
     program = (
         "import svsa, svsa.cli\n"
         "result = svsa.simulate('4a', 'ndobc', duration_s=0.01)\n"
@@ -88,7 +88,7 @@ def test_the_library_simulates_without_any_extra():
     assert run_without(ALL, program) == "10 None\n"
 
 
-def test_what_needs_an_extra_says_in_one_line_how_to_install_it():
+def test_missing_extra_is_reported_in_one_line_with_its_installation():
     said = json.loads(run_without(ALL, f"{SAY}print(json.dumps([say(c) for c in {[*CALLS]!r}]))"))
     for (call, extra), line in zip(CALLS.items(), said, strict=True):
         line = line.removeprefix("Error: ")
@@ -97,7 +97,7 @@ def test_what_needs_an_extra_says_in_one_line_how_to_install_it():
 
 
 @pytest.mark.exhaustive
-def test_the_server_needs_no_other_extra_until_it_has_a_bench():
+def test_server_needs_no_other_extra_without_a_bench():
     program = (
         "import sys\n"
         "from pathlib import Path\n"
@@ -115,7 +115,7 @@ def test_the_server_needs_no_other_extra_until_it_has_a_bench():
 
 
 def test_each_extra_is_locked() -> None:
-    """What is locked is what `make run`, the tests and CI fetch."""
+    """The locked packages are those that `make run`, the tests and CI install."""
     root = Path(__file__).parents[2]
     extras = tomllib.loads((root / "pyproject.toml").read_text())["project"][
         "optional-dependencies"

@@ -10,12 +10,12 @@ OF_DRAWING = re.compile(r"(\btext|-text|-torque|-name)$")
 """Text of a drawing: its size is in the drawing's own units."""
 
 
-def test_the_scale_has_at_most_six_sizes() -> None:
+def test_scale_has_at_most_six_sizes() -> None:
     scale = re.findall(r"--size-\d: ([\d.]+px)", (SOURCE / "theme.css").read_text("utf-8"))
     assert 0 < len(set(scale)) <= 6
 
 
-def test_every_rule_takes_its_size_from_the_scale() -> None:
+def test_every_rule_uses_a_size_of_the_scale() -> None:
     others = [
         f"{sheet.name}: {selector.strip()}"
         for sheet in SOURCE.rglob("*.css")

@@ -16,7 +16,11 @@ import pytest
 ROOT = Path(__file__).parents[2]
 PACKAGES = {"svsa": ROOT, "svsa_server": ROOT / "backend", "tests": ROOT}
 GENERATED = {"backend/svsa_server/page", "frontend/web/src/core/api/schema.d.ts"}
-OTHERS = {"svsa.channels", "svsa.series", "svsa.Sample"}  # in the page's console; schema of MCAP
+OTHERS = {
+    "svsa.channels",
+    "svsa.series",
+    "svsa.Sample",
+}  # In the console of the page; schema of MCAP.
 
 PATH = re.compile(r"(?<![\w/.~<>-])(?:svsa|backend|tests|frontend|docs)/[\w./*{}…<>-]*")
 PLACEHOLDER = re.compile(r"[*{}…<>]|[A-Z]{4}")
@@ -46,7 +50,7 @@ def find_missing_paths(text):
 
 
 def find_missing_endings(text):
-    """Yield what is written as the end of the path of a source file, and is none."""
+    """Yield names that end in the path of a source file that does not exist."""
     for path in ENDING.findall(text):
         if not PLACEHOLDER.search(path) and path not in list_endings():
             yield path
@@ -84,14 +88,14 @@ def is_defined(name):
             place /= f"{part}.py"
         elif place.is_dir():
             return part in list_names(place / "__init__.py")
-        else:  # an attribute of an attribute is not followed
+        else:  # An attribute of an attribute is not followed.
             return part in list_names(place)
     return True
 
 
 @cache
 def list_names(path):
-    """Return what a module binds at its top, and what the table of a lazy one names."""
+    """Return the names that a module binds at its top level or in its table of lazy names."""
     source = path.read_text() if path.is_file() else ""
     names = {"__main__", "__version__"}
     for node in ast.walk(ast.parse(source)):
@@ -122,7 +126,7 @@ def find_missing(text):
 
 
 @pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: str(path.relative_to(ROOT)))
-def test_what_a_document_names_exists(document):
+def test_names_in_documents_exist(document):
     text = document.read_text()
     links = [link.split("#")[0] for link in LINK.findall(text)]
     lost = [link for link in links if not (document.parent / link).exists()]
@@ -130,7 +134,7 @@ def test_what_a_document_names_exists(document):
 
 
 @pytest.mark.parametrize("document", ["svsa/README.md", "frontend/web/README.md"])
-def test_short_paths_begin_at_the_folder_of_their_document_or_in_one_of_its_folders(document):
+def test_short_paths_start_at_the_document_or_in_one_of_its_folders(document):
     path = ROOT / document
     places = [ROOT, path.parent, *(one for one in path.parent.iterdir() if one.is_dir())]
     written = SHORT_PATH.findall(path.read_text())
@@ -138,17 +142,17 @@ def test_short_paths_begin_at_the_folder_of_their_document_or_in_one_of_its_fold
     assert lost == []
 
 
-def test_the_tests_of_the_equation_table_exist():
+def tests_of_the_equation_table_exist():
     tests = {path.stem for path in (ROOT / "tests").rglob("test_*.py")}
     assert set(TEST.findall((ROOT / "svsa/README.md").read_text())) <= tests
 
 
 @pytest.mark.parametrize("folder", ["svsa", "backend", "frontend/scene", "tests"])
-def test_what_docstrings_and_comments_name_exists(folder):
+def test_names_in_docstrings_and_comments_exist(folder):
     missing = {}
     for path in sorted((ROOT / folder).rglob("*.py")):
         source = path.read_text()
-        # The syntax is read only where some text, perhaps no prose, names what there is not.
+        # The syntax is parsed only if some text, perhaps code, names a missing file.
         if path != Path(__file__) and find_missing(source):
             lost = find_missing(read_prose(source))
             if lost:

@@ -48,14 +48,14 @@ def metadata(wheel):
     return Parser().parsestr(wheel.read(name).decode())
 
 
-def test_its_name_is_not_that_of_the_other_project_on_the_index(metadata):
+def test_name_differs_from_the_other_project_on_the_index(metadata):
     assert metadata["Name"] == DISTRIBUTION == "svsa-lab"
     assert metadata["Version"] == svsa.__version__
     citation = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
     assert citation["version"] == svsa.__version__, "set it to the version of pyproject.toml"
 
 
-def test_types_parameters_page_and_rig_are_in_it(wheel):
+def test_types_parameters_page_and_rig_are_included(wheel):
     names = set(wheel.namelist())
     assert {
         "svsa/py.typed",
@@ -70,7 +70,7 @@ def test_types_parameters_page_and_rig_are_in_it(wheel):
     assert not [name for name in names if name.startswith("tests/") or "node_modules" in name]
 
 
-def test_its_guide_is_served_by_the_installed_server(wheel, tmp_path):
+def test_guide_is_served_by_the_installed_server(wheel, tmp_path):
     installed = tmp_path / "installed"
     command = [sys.executable, "-m", "pip", "install", "--quiet", "--no-deps", "--no-index"]
     command += ["--disable-pip-version-check", "--target", str(installed), wheel.filename]
@@ -93,7 +93,7 @@ def test_its_guide_is_served_by_the_installed_server(wheel, tmp_path):
     assert {"tutorials/own_law.html", "reference/library.html", "searchindex.js"} <= guide
 
 
-def test_only_the_library_s_packages_come_without_an_extra(metadata):
+def test_base_install_requires_only_the_packages_of_the_library(metadata):
     asked = metadata.get_all("Requires-Dist")
     always = {Requirement(line).name for line in asked if "extra ==" not in line}
     assert {"numpy", "scipy", "numba", "pyarrow"} <= always
@@ -104,7 +104,7 @@ def test_only_the_library_s_packages_come_without_an_extra(metadata):
     assert "extra == 'bench'" in can
 
 
-def test_the_command_says_its_version():
+def test_command_prints_its_version():
     command = [sys.executable, "-c", "from svsa.cli import main; main()", "--version"]
     said = subprocess.run(command, capture_output=True, text=True, check=True, timeout=120)
     assert said.stdout == f"{svsa.__version__}\n"
