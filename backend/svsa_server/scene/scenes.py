@@ -2,48 +2,12 @@
 
 import asyncio
 import logging
-import math
 import time
 from typing import TYPE_CHECKING
 
-from svsa.actuators.signals import CHANNEL_INDEX
 from svsa.runs.session.session import Session
-from svsa_scene import ActuatorPose, ComparisonPose
-from svsa_scene.pose import POSE_CHANNELS, draw_nothing_unknown
-from svsa_server.runs.lanes import list_session_segments
+from svsa_server.scene.poses import read_pose
 from svsa_server.sessions.laboratory import SHARED_SESSION, Laboratory
-
-
-def read_pose(session: Session) -> ActuatorPose | None:
-    """Read the pose from the session's newest sample; None before the first."""
-    newest = session.journal.history.read_newest()
-    if newest is None:
-        return None
-
-    values = {channel: float(newest[CHANNEL_INDEX[channel]]) for channel in POSE_CHANNELS}
-    return ActuatorPose(
-        **draw_nothing_unknown(values),
-        comparisons=_read_comparisons(session),
-        load_mass_kg=_find_hung_mass(session),
-    )
-
-
-def _read_comparisons(session: Session) -> tuple[ComparisonPose, ...]:
-    """Read the link angles of the other lanes; none before a lane's first sample."""
-    poses = []
-    for number, segments in enumerate(list_session_segments(session)[1:], start=1):
-        newest = session.journal.history.read_newest(number)
-        position = math.nan if newest is None else float(newest[CHANNEL_INDEX["position_rad"]])
-        if math.isfinite(position):
-            present = segments[-1]
-            poses.append(ComparisonPose(present.name, position, present.line_style))
-    return tuple(poses)
-
-
-def _find_hung_mass(session: Session) -> float:
-    on = (held.load for held in session.run.loads if held.is_on(session.run.tick))
-    return sum(load.get_hung_mass() for load in on)
-
 
 if TYPE_CHECKING:
     from svsa_server.scene.bridge import SceneBridge
@@ -71,8 +35,8 @@ class View:
 
     def is_over(self, now: float) -> bool:
         """Whether the view ends: its session has ended, or it had no viewer for a minute."""
-        is_left = self.session.name != SHARED_SESSION and now - self.seen > IDLE_S
-        return self.session.closed or is_left
+        is_left = not self.bridge.viewers and now - self.seen > IDLE_S
+        return self.session.closed or (is_left and self.session.name != SHARED_SESSION)
 
 
 class Scenes:
@@ -87,12 +51,14 @@ class Scenes:
     async def open(self, name: str) -> int:
         """Return the loopback port of the session's viser, started if there is none.
 
-        Raises `UnknownError` where there is no such session.
+        Raises:
+            UnknownError: If there is no such session.
         """
         session = self._laboratory.get(name).session
         async with self._starting:
             if name not in self.views:
-                # Under the lock: two viewers at a time must not start two servers for a session.
+                # Under the lock, so that two simultaneous viewers do not start two servers for one
+                # session.
                 self.views[name] = View(session, await asyncio.to_thread(_start_viser, session))
         view = self.views[name]
         view.seen = time.monotonic()
@@ -126,7 +92,7 @@ def _start_viser(session: Session) -> "SceneBridge":
     """Start viser; imported here, at the first viewer: it is a quarter of a server's start."""
     from svsa_server.scene.bridge import SceneBridge
 
-    return SceneBridge(session.run.configuration.actuator)
+    return SceneBridge(session.run.configuration)
 
 
 def _update(view: View, now: float) -> None:

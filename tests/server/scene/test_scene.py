@@ -1,4 +1,4 @@
-"""The 3D view: it follows the session that it is of, while a user looks."""
+"""The 3D view: it follows its session while a client watches."""
 
 import asyncio
 import math
@@ -42,7 +42,7 @@ def test_websocket_shows_the_scene_and_follows_the_pose(path: str) -> None:
     run_in_lab(check)
 
 
-def test_a_private_session_has_a_view_of_its_own_that_ends_with_it() -> None:
+def test_private_session_has_its_own_view_that_ends_with_it() -> None:
     async def check(lab: Lab) -> None:
         private = lab.laboratory.create(get_figure("4a").build_configuration()).session.name
         lab.poses[private] = make_pose(-1.0)
@@ -65,14 +65,14 @@ def test_a_private_session_has_a_view_of_its_own_that_ends_with_it() -> None:
     run_in_lab(check)
 
 
-def test_a_private_view_that_no_user_looks_at_ends(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("svsa_server.scene.scenes.IDLE_S", 0.2)
-
+def test_private_view_without_viewers_ends(monkeypatch: pytest.MonkeyPatch) -> None:
     async def check(lab: Lab) -> None:
         private = lab.laboratory.create(get_figure("4a").build_configuration()).session.name
         async with lab.connect(path=f"/viser/{private}/") as own:
             await own.send(msgspec.msgpack.encode(CAMERA))
             await wait_for(lambda: lab.scenes.views[private].bridge.viewers == 1)
+            # Only now: a busy machine may need longer to count the viewer.
+            monkeypatch.setattr("svsa_server.scene.scenes.IDLE_S", 0.0)
             await asyncio.sleep(0.5)
             assert private in lab.scenes.views
         await wait_for(lambda: not lab.scenes.views)
@@ -80,7 +80,7 @@ def test_a_private_view_that_no_user_looks_at_ends(monkeypatch: pytest.MonkeyPat
     run_in_lab(check)
 
 
-def test_nothing_is_begun_or_read_while_no_user_watches() -> None:
+def test_nothing_is_started_or_read_without_viewers() -> None:
     async def check(lab: Lab) -> None:
         await asyncio.sleep(0.15)
         assert not lab.scenes.views
