@@ -1,6 +1,7 @@
 """Active loads of a run over time, by one rule for runs and records."""
 
-from collections.abc import Iterable
+from collections import deque
+from collections.abc import Iterable, Iterator
 
 from svsa.simulation.plant.load_table import ScheduledLoad, continue_push, schedule_load
 from svsa.simulation.plant.loads import Load
@@ -49,6 +50,23 @@ def follow_loads(
     Returns:
         The loads.
     """
+    last = deque(trace_loads(planned, changes, period), maxlen=1)
+    return last[0][1] if last else ()
+
+
+def trace_loads(
+    planned: Iterable[Load], changes: Iterable[tuple[int, Load | int]], period: float
+) -> Iterator[tuple[int, Loads]]:
+    """List the loads after each change; see `follow_loads`. A push has its values until then.
+
+    Args:
+        planned: Loads of the configuration.
+        changes: Tick, and the load applied or the number of the load removed.
+        period: T, s.
+
+    Yields:
+        Tick of the change, and the loads.
+    """
     loads: Loads = ()
     number = 0
     for tick, change in [*((0, load) for load in planned), *changes]:
@@ -57,7 +75,7 @@ def follow_loads(
         else:
             number += 1
             _, loads = give_load(loads, number, change, tick, period)
-    return loads
+        yield tick, loads
 
 
 def _end(load: ScheduledLoad, tick: int) -> ScheduledLoad:

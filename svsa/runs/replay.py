@@ -9,8 +9,9 @@ from svsa.errors import StateError
 from svsa.runs.arm.run import build_run
 from svsa.runs.command import ApplyLoad, Command, RemoveLoad
 from svsa.runs.configuration import Configuration
-from svsa.runs.loads import Loads, follow_loads
+from svsa.runs.loads import Loads, follow_loads, trace_loads
 from svsa.runs.run import Run
+from svsa.simulation.plant.loads import Load
 
 STRETCH_TICKS = 10_000
 
@@ -92,7 +93,18 @@ def simulate_again(
 
 def list_loads(configuration: Configuration, commands: Iterable[Command]) -> Loads:
     """List every load of a run, with its first and last tick."""
-    changes = [
-        (one.tick, one.argument) for one in commands if isinstance(one, ApplyLoad | RemoveLoad)
-    ]
+    changes = _select_load_changes(commands)
     return follow_loads(configuration.planned_loads, changes, configuration.sampling.period_s)
+
+
+def list_load_changes(
+    configuration: Configuration, commands: Iterable[Command]
+) -> list[tuple[int, Loads]]:
+    """List the loads of a run after each change, with its tick; see `trace_loads`."""
+    changes = _select_load_changes(commands)
+    period = configuration.sampling.period_s
+    return list(trace_loads(configuration.planned_loads, changes, period))
+
+
+def _select_load_changes(commands: Iterable[Command]) -> list[tuple[int, Load | int]]:
+    return [(one.tick, one.argument) for one in commands if isinstance(one, ApplyLoad | RemoveLoad)]

@@ -12,7 +12,7 @@ from svsa.actuators.arm.dynamics import Joints, compute_tip_position, turn
 from svsa.actuators.arm.parameters import MACCEPA_ARM, RODS
 from svsa.actuators.installed import get_mechanism
 from svsa_scene.arm import ArmScene
-from svsa_scene.arm_pose import ArmPose, Wall
+from svsa_scene.arm_pose import ArmPose, TipLoad, Wall
 from svsa_scene.arm_solids import REACH
 from svsa_scene.tip import Lengths, compute_stiffness_ellipse, compute_tip
 from tests.server.scene.poses import make_pose
@@ -123,8 +123,8 @@ def test_loads_at_the_tip_are_drawn_while_they_act(server: viser.ViserServer) ->
     nodes = "/a/w", "/a/f", "/a/wall"
     scene.update(build_arm_pose(0.4, 1.0))
     assert not any(get_node(server, name).visible for name in nodes)
-    loads = {"tip_mass_kg": 0.3, "tip_force_n": (3.0, 4.0), "wall": Wall(math.pi, 0.2)}
-    scene.update(build_arm_pose(0.4, 1.0, **loads))
+    load = TipLoad(mass_kg=0.3, force_n=(3.0, 4.0), wall=Wall(math.pi, 0.2))
+    scene.update(build_arm_pose(0.4, 1.0, load=load))
     assert all(get_node(server, name).visible for name in nodes)
     assert get_node(server, "/a/w/t").text == "0.3 kg"
     assert get_node(server, "/a/f/h/t").text == "5 N"
@@ -171,5 +171,5 @@ def test_pose_without_a_number_keeps_the_last_one(server: viser.ViserServer) -> 
     scene = build_scene(server)
     scene.update(build_arm_pose(0.4, 1.0))
     scene.update(build_arm_pose(math.nan, 1.0))
-    scene.update(build_arm_pose(0.8, 1.0, tip_force_n=(math.nan, 0.0)))
+    scene.update(build_arm_pose(0.8, 1.0, load=TipLoad(force_n=(math.nan, 0.0))))
     assert get_node(server, "/a/l").wxyz[3] == pytest.approx(math.sin(0.2))

@@ -18,6 +18,7 @@ from svsa.errors import ParameterError
 from svsa.runs.events import Event
 from svsa.runs.metrics import compute_metrics
 from svsa.runs.records.measured_window import MeasuredWindow
+from svsa_scene.arm_pose import TipLoad, Wall
 from svsa_scene.pose import LaneSegment
 from svsa_scene.replay_curves import decimate, pack_curves
 from svsa_scene.replay_motion import record_motion
@@ -181,17 +182,21 @@ def test_motion_of_an_arm_has_both_joints_and_the_path_of_the_tip() -> None:
         [LaneSegment(name, 0, number, 0, 2000)]
         for number, name in enumerate(("Joint 1 FL", "Joint 2 FL", "Joint 1 PD", "Joint 2 PD"))
     ]
-    mass = np.where(np.arange(2000) >= 1000, 0.3, 0.0)
-    arm = ReplayArm(RODS, actuator)
-    motion = record_motion(samples, CHANNELS, segments, PERIOD_S, mass, ArrayPack(), actuator, arm)
+    loaded = TipLoad(mass_kg=0.3, force_n=(3.0, 4.0), wall=Wall(math.pi, 0.2))
+    arm = ReplayArm(RODS, actuator, [(0, TipLoad()), (1000, loaded)])
+    no_mass = np.zeros(len(samples))
+    motion = record_motion(
+        samples, CHANNELS, segments, PERIOD_S, no_mass, ArrayPack(), actuator, arm
+    )
     turned = {track["name"] for track in motion.content["tracks"] if track["field"] == "wxyz"}
     assert {"/a/l", "/a/l/2/l", "/a/g", "/a/g/2", "/a/r", "/a/r/2"} <= turned
-    (hung,) = [
-        track
+    seen = {
+        track["name"]: track["words"]
         for track in motion.content["tracks"]
-        if (track["name"], track["field"]) == ("/a/w", "visible")
-    ]
-    assert hung["words"][-1] is True
+        if track["field"] == "visible"
+    }
+    for node in ("/a/w", "/a/f", "/a/wall"):
+        assert seen[node] == [False, True]
     names = {track["name"] for track in motion.content["tracks"]}
     assert "/a/t" not in names
 

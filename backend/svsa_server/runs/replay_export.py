@@ -16,6 +16,7 @@ from svsa_scene.pose import LaneSegment
 from svsa_scene.replay import build_replay_html
 from svsa_scene.replay_scenes import ReplayArm
 from svsa_server.runs.lanes import list_record_segments, name_lanes
+from svsa_server.runs.tip_load import trace_tip_loads
 from svsa_server.schemas.runs.lane import SegmentState
 
 
@@ -50,15 +51,20 @@ def build_replay(record: Record) -> str:
         events=list_events(*origin, record.fault, record.events),
         first_tick=record.first_tick,
         actuator=origin[0].actuator,
-        arm=_find_arm(origin[0]),
+        arm=_find_arm(*origin, record.first_tick),
         window=find_measured_window(record),
         segments=[[_place(record, one) for one in lane] for lane in segments],
     )
 
 
-def _find_arm(configuration: Configuration) -> ReplayArm | None:
+def _find_arm(
+    configuration: Configuration, commands: Sequence[Command], first_tick: int
+) -> ReplayArm | None:
     arm = configuration.arm
-    return arm and ReplayArm(arm.links, arm.joint2.actuator)
+    if arm is None:
+        return None
+    loads = trace_tip_loads(configuration, commands, first_tick)
+    return ReplayArm(arm.links, arm.joint2.actuator, loads)
 
 
 def _place(record: Record, segment: SegmentState) -> LaneSegment:

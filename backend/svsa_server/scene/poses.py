@@ -6,12 +6,11 @@ from dataclasses import replace
 from svsa.actuators.signals import CHANNEL_INDEX
 from svsa.runs.session.session import Session
 from svsa.simulation.plant.loads import Load
-from svsa.simulation.plant.loads.tip import TipForce, TipImpulse, TipPush
-from svsa.simulation.plant.loads.tip import Wall as WallLoad
 from svsa_scene import ActuatorPose, ComparisonPose
-from svsa_scene.arm_pose import ArmPose, Wall
+from svsa_scene.arm_pose import ArmPose
 from svsa_scene.pose import POSE_CHANNELS, replace_unknown_disturbances
 from svsa_server.runs.lanes import list_session_segments
+from svsa_server.runs.tip_load import sum_tip_loads
 
 JOINTS = 2
 
@@ -64,27 +63,10 @@ def _read_arm(session: Session) -> ArmPose | None:
         return None
     angles = [math.nan if one is None else one.position_rad for one in others]
     is_compared = len(angles) == JOINTS and all(map(math.isfinite, angles))
-    loads = _list_acting(session)
-    forces = [force for load in loads if (force := _find_force(load)) is not None]
-    walls = [load for load in loads if isinstance(load, WallLoad)]
     segments = list_session_segments(session)
     return ArmPose(
         (first, second),
         comparison=(angles[0], angles[1]) if is_compared else None,
         comparison_name=segments[JOINTS][-1].name.split(" ", 2)[-1] if is_compared else "",
-        tip_mass_kg=sum(load.get_hung_mass() for load in loads),
-        tip_force_n=(sum(x for x, _ in forces), sum(y for _, y in forces)),
-        wall=Wall(walls[0].normal_rad, walls[0].distance_m) if walls else None,
+        load=sum_tip_loads(_list_acting(session)),
     )
-
-
-def _find_force(load: Load) -> tuple[float, float] | None:
-    """The force of a load at the tip, N; None for another load."""
-    match load:
-        case TipForce() | TipPush():
-            return load.force_n
-        case TipImpulse():
-            x, y = load.impulse_ns
-            return x / load.DURATION_S, y / load.DURATION_S
-        case _:
-            return None

@@ -101,7 +101,7 @@ class ArmScene:
                 parts.move(joint)
             self._ghost.show(wanted)
             self._comparison.show(pose.comparison, pose.comparison_name)
-            self._loads.show(tip, pose)
+            self._loads.show(tip, pose.load)
             self._ellipse.show(tip, compute_stiffness_ellipse(self._metres, q, stiffness))
             if self._has_trail:
                 for trail, point in zip(

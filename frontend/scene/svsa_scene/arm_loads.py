@@ -7,7 +7,7 @@ import viser
 from svsa_scene import appearance as look
 from svsa_scene import arm_solids as solids
 from svsa_scene import mechanism
-from svsa_scene.arm_pose import ArmPose, Wall
+from svsa_scene.arm_pose import TipLoad, Wall
 from svsa_scene.arm_solids import REACH
 from svsa_scene.geometry import turn
 from svsa_scene.moved import Moved
@@ -49,12 +49,12 @@ class TipLoads:
             cast_shadow=False,
         )
 
-    def show(self, tip: tuple[float, float], pose: ArmPose) -> None:
-        """Every load of the pose at the tip, (x, y) in scene units."""
+    def show(self, tip: tuple[float, float], load: TipLoad) -> None:
+        """Every load at the tip, (x, y) in scene units."""
         x, y = tip
-        self._show_mass((-y, x, solids.TIP_Z + 0.25), pose.tip_mass_kg)
-        self._show_force((-y, x, solids.TIP_Z + 0.4), pose.tip_force_n)
-        self._show_wall(pose.wall)
+        self._show_mass((-y, x, solids.TIP_Z + 0.25), load.mass_kg)
+        self._show_force((-y, x, solids.TIP_Z + 0.4), load.force_n)
+        self._show_wall(load.wall)
 
     def _show_mass(self, at: tuple[float, float, float], mass_kg: float) -> None:
         if mass_kg > 0.0 and self._moved.is_due("mass", at):

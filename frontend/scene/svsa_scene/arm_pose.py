@@ -20,6 +20,21 @@ class Wall:
 
 
 @dataclass(frozen=True)
+class TipLoad:
+    """The sum of the loads at the tip.
+
+    Attributes:
+        mass_kg: Mass hung at the tip, 0 without one.
+        force_n: Force of the loads (x horizontal, y up), N, without that of the wall.
+        wall: The wall, or None.
+    """
+
+    mass_kg: float = 0.0
+    force_n: tuple[float, float] = (0.0, 0.0)
+    wall: Wall | None = None
+
+
+@dataclass(frozen=True)
 class ArmPose:
     """One instant of an arm.
 
@@ -27,20 +42,16 @@ class ArmPose:
         joints: Poses of the actuators of joint 1 and joint 2.
         comparison: q1 and q2 of the second arm, rad; None without one.
         comparison_name: Name of its controller.
-        tip_mass_kg: Mass hung at the tip, 0 without one.
-        tip_force_n: Force of the loads at the tip (x horizontal, y up), N.
-        wall: The wall, or None.
+        load: Loads at the tip.
     """
 
     joints: tuple[ActuatorPose, ActuatorPose]
     comparison: tuple[float, float] | None = None
     comparison_name: str = ""
-    tip_mass_kg: float = 0.0
-    tip_force_n: tuple[float, float] = (0.0, 0.0)
-    wall: Wall | None = None
+    load: TipLoad = TipLoad()
 
     @property
     def is_finite(self) -> bool:
         """Whether every number of it can be drawn."""
-        others = (*(self.comparison or ()), self.tip_mass_kg, *self.tip_force_n)
+        others = (*(self.comparison or ()), self.load.mass_kg, *self.load.force_n)
         return all(joint.is_finite for joint in self.joints) and all(map(math.isfinite, others))

@@ -69,7 +69,8 @@ def build_replay_html(
         channels: Names as in `svsa.actuators.signals.CHANNELS`, at least those of a pose; others
             are left out.
         samples: float64 (ticks, lanes, channels), SI.
-        load_mass_kg: Hanging mass at every tick, (ticks,), kg; None for none.
+        load_mass_kg: Hanging mass at every tick, (ticks,), kg; None for none. That of an arm is in
+            its `loads`.
         details: Information about the run (JSON); `version` and other simple values are in the
             header.
         events: Events, marked on the plots if they are within these samples.

@@ -1,5 +1,6 @@
 """The scenes of a replay, which show any tick of recorded samples: an actuator, or an arm."""
 
+import bisect
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -14,7 +15,7 @@ from svsa.actuators.parameters import MechanismParameters
 from svsa_scene import appearance as look
 from svsa_scene import mechanism
 from svsa_scene.arm import ArmScene
-from svsa_scene.arm_pose import ArmPose
+from svsa_scene.arm_pose import ArmPose, TipLoad
 from svsa_scene.geometry import turn
 from svsa_scene.names import add_label
 from svsa_scene.pose import POSE_CHANNELS, ActuatorPose, LaneSegment, replace_unknown_disturbances
@@ -29,10 +30,17 @@ _PATH_POINTS = 1500
 
 
 class ReplayArm(NamedTuple):
-    """The arm of a recorded run: its links, and the actuator of joint 2."""
+    """The arm of a recorded run.
+
+    Attributes:
+        links: The links.
+        actuator2: The actuator of joint 2.
+        loads: Loads at the tip, each with the tick from which it acts, from the first sample on.
+    """
 
     links: ArmParameters
     actuator2: MechanismParameters
+    loads: Sequence[tuple[int, TipLoad]] = ((0, TipLoad()),)
 
 
 @dataclass(frozen=True)
@@ -43,7 +51,7 @@ class RecordedSamples:
         values: (ticks, lanes, channels), SI.
         channels: Names of the channels.
         lanes: Controllers of every lane.
-        load_mass_kg: Hanging mass at every tick, (ticks,), kg.
+        load_mass_kg: Hanging mass at every tick, (ticks,), kg; for a single joint.
     """
 
     values: npt.NDArray[np.float64]
@@ -103,6 +111,7 @@ class ArmReplay:
         arm: ReplayArm,
     ) -> None:
         self._samples = samples
+        self._loads = arm.loads
         self.scene = ArmScene(server, arm.links, (parameters, arm.actuator2), has_trail=False)
         stride = max(1, math.ceil(len(samples.values) / _PATH_POINTS))
         position, reference = (
@@ -121,7 +130,7 @@ class ArmReplay:
             (samples.read(tick, 0), samples.read(tick, 1)),
             comparison=(others[0], others[1]) if is_compared else None,
             comparison_name=name,
-            tip_mass_kg=float(samples.load_mass_kg[tick]),
+            load=self._loads[bisect.bisect(self._loads, tick, key=lambda one: one[0]) - 1][1],
         )
         self.scene.update(pose)
 

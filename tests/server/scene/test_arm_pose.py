@@ -8,7 +8,7 @@ import svsa
 from svsa.runs.arm.experiment import build_arm_experiment
 from svsa.runs.command import ApplyLoad, Set
 from svsa.runs.session.simulated import SimulatedSession
-from svsa_scene.arm_pose import ArmPose, Wall
+from svsa_scene.arm_pose import ArmPose, TipLoad, Wall
 from svsa_server.scene.bridge import SceneBridge
 from svsa_server.scene.poses import read_pose
 from tests.server.scene.poses import make_pose
@@ -31,7 +31,7 @@ def test_pose_has_both_joints_and_the_loads_at_the_tip(session: SimulatedSession
     assert read_pose(session) is None
     session.step(5)
     bare = read_arm(session)
-    assert (bare.tip_mass_kg, bare.tip_force_n, bare.wall) == (0.0, (0.0, 0.0), None)
+    assert bare.load == TipLoad()
     assert bare.joints[0].position_rad != bare.joints[1].position_rad
     for load in (
         svsa.TipMass(mass_kg=0.1),
@@ -41,10 +41,7 @@ def test_pose_has_both_joints_and_the_loads_at_the_tip(session: SimulatedSession
     ):
         session.change(ApplyLoad(argument=load))
     session.step(5)
-    loaded = read_arm(session)
-    assert loaded.tip_mass_kg == 0.1
-    assert loaded.tip_force_n == (1.5, 0.5)
-    assert loaded.wall == Wall(math.pi, -0.55)
+    assert read_arm(session).load == TipLoad(0.1, (1.5, 0.5), Wall(math.pi, -0.55))
 
 
 def test_comparison_is_in_the_pose_from_its_first_sample_on(session: SimulatedSession) -> None:

@@ -1,0 +1,61 @@
+"""The sum of the loads at the tip of an arm, as the 3D view draws it."""
+
+import math
+from collections.abc import Iterable, Sequence
+from itertools import pairwise
+
+from svsa.runs.command import Command
+from svsa.runs.configuration import Configuration
+from svsa.runs.replay import list_load_changes
+from svsa.simulation.plant.loads import Load
+from svsa.simulation.plant.loads.tip import TipForce, TipImpulse, TipPush
+from svsa.simulation.plant.loads.tip import Wall as WallLoad
+from svsa_scene.arm_pose import TipLoad, Wall
+
+
+def sum_tip_loads(loads: Iterable[Load]) -> TipLoad:
+    """Sum the loads that act at one instant; of several walls, the first."""
+    acting = list(loads)
+    forces = [force for load in acting if (force := _find_force(load)) is not None]
+    walls = [one for one in acting if isinstance(one, WallLoad)]
+    return TipLoad(
+        mass_kg=sum(load.get_hung_mass() for load in acting),
+        force_n=(sum(x for x, _ in forces), sum(y for _, y in forces)),
+        wall=Wall(walls[0].normal_rad, walls[0].distance_m) if walls else None,
+    )
+
+
+def trace_tip_loads(
+    configuration: Configuration, commands: Sequence[Command], first_tick: int
+) -> list[tuple[int, TipLoad]]:
+    """Trace the sum through a run.
+
+    Args:
+        configuration: Of the run at its tick 0.
+        commands: Of the run.
+        first_tick: Tick of the run that the result counts as 0.
+
+    Returns:
+        Each sum with the tick from which it acts, in the order of the ticks.
+    """
+    changes = list_load_changes(configuration, commands)
+    found = [(0, TipLoad())]
+    for (tick, loads), (following, _) in pairwise([*changes, (math.inf, ())]):
+        times = {time for one in loads for time in (one.start_tick, one.end_tick)}
+        for at in sorted({tick, *(time for time in times if tick < time < following)}):
+            load = sum_tip_loads(one.load for one in loads if one.is_on(at))
+            if load != found[-1][1]:
+                found.append((max(0, at - first_tick), load))
+    return found
+
+
+def _find_force(load: Load) -> tuple[float, float] | None:
+    """The force of a load at the tip, N; None for another load."""
+    match load:
+        case TipForce() | TipPush():
+            return load.force_n
+        case TipImpulse():
+            x, y = load.impulse_ns
+            return x / load.DURATION_S, y / load.DURATION_S
+        case _:
+            return None
