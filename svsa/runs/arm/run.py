@@ -108,15 +108,15 @@ class ArmRun(Run):
         super()._push(kind, after, joint)
 
     def _rearrange(self, after: Configuration, origins: Sequence[int | None]) -> None:
-        """The model of the feedforward acts from this tick on; the rest of ŵ stays."""
+        """The model of the feedforward acts from this tick on.
+
+        ŵ2 stays: it estimates the whole w2, which does not depend on what of it the laws know.
+        """
         self._coupled = [self._coupled[(origin or 0) // 2] for origin in origins[::2]]
         self._join_blocks(after)
         for number, (blocks, coupled) in enumerate(zip(self.arms, self._coupled, strict=True)):
             payload = coupled.payload if blocks.adaptation.share > 0.0 else Payload()
             known = plan(adapt_blocks(blocks, payload.mass), self.arm_inputs, self.tick)
-            for joint, (old, new) in enumerate(zip(coupled[:2], known, strict=True)):
-                lane = self.lanes[2 * number + joint]
-                self.lanes[2 * number + joint] = shift_estimate(lane, new.w - old.w)
             self._coupled[number] = Coupled(known[0], known[1], payload)
 
     def _join_blocks(self, c: Configuration) -> None:

@@ -137,7 +137,24 @@ def test_second_arm_begins_where_the_first_one_is_and_has_its_loads():
     assert np.all(errors[:2] < 0.2 * errors[2:])
 
 
-def test_feedforward_switched_on_lowers_the_error_without_a_jump_of_the_torque():
+@pytest.mark.parametrize("is_on", [True, False])
+def test_feedforward_switched_changes_the_torque_by_less_than_its_motion(is_on):
+    """ŵ2 already has what the model explains: to add it again would double the torque at once."""
+    given = {"feedforward": not is_on}
+    session = build_session(build_arm_experiment("rods", given, {"law": "ndobc"}))
+    session.step(3000)
+    session.change(Set("feedforward", is_on))
+    session.step(200)
+    rows = read_lanes(session)
+    torque = rows[..., CHANNEL_INDEX["torque1_nm"]]
+    assert np.all(np.abs(torque[3000] - torque[2999]) < 0.05 * np.abs(torque[2999]))
+    error = np.degrees(np.abs(rows[3000:, :, CHANNEL_INDEX["position_error_rad"]]))
+    assert error.max() < 0.2, "as without feedforward, or less"
+    estimate = rows[..., CHANNEL_INDEX["estimate_link_nm"]]
+    assert estimate[3000] == pytest.approx(estimate[2999], rel=0.01)
+
+
+def test_feedforward_switched_on_lowers_the_error():
     session = build_session(build_arm_experiment("rods", {}, {"law": "ndobc"}))
     session.step(3000)
     before = read_lanes(session)[-1000:]
