@@ -188,7 +188,8 @@ class Configuration(Design):
         arm = self.arm
         if arm is None:
             if any(load.acts_as == TIP for load in self.loads):
-                raise ParameterError(Violation("loads", "at the tip", "", "loads on a joint"))
+                bound = "loads on a joint; those at the tip are tip_loads of svsa.simulate_arm"
+                raise ParameterError(Violation("loads", "at the tip", "", bound))
             return self
         if arm.tip is not None:
             arm.tip.check_reach(arm.links)

@@ -9,9 +9,10 @@ from svsa.errors import ParameterError, Violation
 from svsa.inputs.nearest import suggest
 from svsa.runs.configuration import ArmSetup, Configuration
 from svsa.runs.experiment import build_actuator_experiment
-from svsa.runs.shorthand import change_configuration
+from svsa.runs.shorthand import change_configuration, read_load
+from svsa.simulation.arm.tip_reference import TipReference
 from svsa.simulation.plant.loads import Load
-from svsa.simulation.plant.loads.load import TIP
+from svsa.simulation.plant.loads.load import TIP, AnyLoad
 from svsa.simulation.reference.kinds.reference import AnyPosition
 from svsa.simulation.reference.kinds.sine import SinePosition
 
@@ -78,7 +79,7 @@ def build_arm_experiment(
     given: Mapping[str, Any],
     both: Mapping[str, Any],
     each: Sequence[Mapping[str, Any]] = ({}, {}),
-    tip_loads: Sequence[Load] | None = None,
+    tip_loads: Load | Sequence[Load] | None = None,
 ) -> Configuration:
     """Build the configuration of an arm's experiment.
 
@@ -94,7 +95,8 @@ def build_arm_experiment(
         `compute_joint_inertias`.
 
     Raises:
-        ParameterError: There is no such arm or setting, or a value is out of range.
+        ParameterError: There is no such arm or setting, or a value is out of range. Loads on a
+            joint are not among `tip_loads`, and position references not next to one of the tip.
     """
     first = experiment
     if not isinstance(first, Configuration):
@@ -107,9 +109,11 @@ def build_arm_experiment(
         except ParameterError as error:
             raise error.within(f"joint{number}") if own else error from None
     at_tip = tuple(load for load in first.loads if load.acts_as == TIP)
-    at_tip = at_tip if tip_loads is None else tuple(tip_loads)
+    at_tip = at_tip if tip_loads is None else _read_tip_loads(tip_loads)
     own, second = joints
     setup = arm.changed(**{**given, "joint2": second})
+    if setup.tip is not None and any("position" in settings for settings in (both, *each)):
+        raise reject_position(setup.tip)
     return own.changed(arm=setup, loads=(*own.loads, *at_tip))
 
 
@@ -120,12 +124,30 @@ def split_joints(configuration: Configuration) -> tuple[Configuration, ...]:
     return first.changed(arm=None, loads=on_joint), *others
 
 
+def reject_position(tip: TipReference) -> ParameterError:
+    """Build the error of a joint's position reference that a reference of the tip replaces."""
+    bound = "None for a position reference of a joint, which the reference of the tip replaces"
+    return ParameterError(Violation("arm.tip", tip.kind, "", bound))
+
+
+def _read_tip_loads(given: Load | Sequence[Load]) -> tuple[Load, ...]:
+    given = (given,) if isinstance(given, AnyLoad) else given
+    loads = tuple(read_load(one, f"tip_loads[{number}]") for number, one in enumerate(given))
+    for number, load in enumerate(loads):
+        if load.acts_as != TIP:
+            bound = "a load at the tip; give a load on a joint as loads of joint1 or joint2"
+            raise ParameterError(Violation(f"tip_loads[{number}]", load.kind, "", bound))
+    return loads
+
+
 def _build_named(name: str, arm: ArmParameters | None) -> Configuration:
     if name not in ARMS:
         finding = f"there is no such arm{suggest(name, ARMS)}"
         raise ParameterError(Violation("experiment", name, "", "", finding=finding))
     named = ARMS[name]
-    links = arm or named.links
+    links = named.links if arm is None else arm
+    if not isinstance(links, ArmParameters):
+        raise ParameterError(Violation("arm", links, "", "svsa.ArmParameters"))
     first, second = (
         _build_joint(named.actuator, inertia, motion, stiffness=named.stiffness_nm_per_rad)
         for inertia, motion in zip(compute_joint_inertias(links), named.motions, strict=True)

@@ -10,6 +10,7 @@ from svsa.actuators.signals import State
 from svsa.control.arm_feedforward import Known
 from svsa.control.arm_payload import NO_ADAPTATION, Payload
 from svsa.errors import ParameterError, StateError, Violation
+from svsa.runs.arm.experiment import reject_position
 from svsa.runs.configuration import Configuration
 from svsa.runs.run import Reached, Run
 from svsa.simulation.arm.lane import ArmBlocks, ArmInputs, ArmState
@@ -103,8 +104,7 @@ class ArmRun(Run):
     def _push(self, kind: str, after: Configuration, joint: int | None) -> None:
         tip = self.configuration.require_arm().tip
         if kind == "position" and tip is not None:
-            bound = "None: the reference of the tip replaces those of the joints"
-            raise ParameterError(Violation("arm.tip", tip.kind, "", bound))
+            raise reject_position(tip)
         super()._push(kind, after, joint)
 
     def _rearrange(self, after: Configuration, origins: Sequence[int | None]) -> None:

@@ -71,12 +71,8 @@ def simulate(
     named = {} if law is None or own else {"law": law}
     configuration = build_experiment(experiment, parameters, {**changes, **named}, simulate)
     period = configuration.sampling.period_s
-    check_number("duration_s", duration_s, "s", period, MAX_TICKS * period)
-    check_number("steps", steps, "", 1, MAX_STEPS)
-    if not isinstance(steps, int):
-        raise ParameterError(Violation("steps", steps, "", "a whole number"))
+    ticks = check_size(duration_s, steps, period)
     given = build_commands(commands, period, duration_s)
-    ticks = round(duration_s / period)
     stretch = STRETCH_TICKS if own is None else _OWN_STRETCH_TICKS
     with (
         nullcontext() if own is None else begin_run(own) as controller,
@@ -91,3 +87,24 @@ def simulate(
         *(lane.law for lane in configuration.comparisons),
     ]
     return build_results(configuration, samples[:, : run.tick], laws, run.fault, given, steps=steps)
+
+
+def check_size(duration_s: float, steps: int, period_s: float) -> int:
+    """Check the duration of a run and its Runge–Kutta steps, and return the number of its ticks.
+
+    Args:
+        duration_s: Duration, s.
+        steps: Runge–Kutta steps per control period.
+        period_s: Control period T, s.
+
+    Returns:
+        The number of ticks.
+
+    Raises:
+        ParameterError: If a value is out of range, or `steps` is not a whole number.
+    """
+    check_number("duration_s", duration_s, "s", period_s, MAX_TICKS * period_s)
+    check_number("steps", steps, "", 1, MAX_STEPS)
+    if not isinstance(steps, int):
+        raise ParameterError(Violation("steps", steps, "", "a whole number"))
+    return round(duration_s / period_s)

@@ -8,7 +8,6 @@ import numpy as np
 from svsa.actuators.arm.parameters import ArmParameters
 from svsa.actuators.signals import CHANNELS
 from svsa.control.arm_payload import PayloadAdaptation
-from svsa.inputs.checked import check_number
 from svsa.runs.arm.experiment import build_arm_experiment
 from svsa.runs.arm.run import ArmRun
 from svsa.runs.change import Change, build_commands
@@ -17,7 +16,7 @@ from svsa.runs.paper import DURATION_S
 from svsa.runs.replay import play
 from svsa.runs.result.arm import ArmResult, build_arm_results
 from svsa.runs.result.progress import Follow, follow_progress
-from svsa.runs.result.simulate import MAX_STEPS, MAX_TICKS
+from svsa.runs.result.simulate import check_size
 from svsa.runs.shorthand import LawChoice, Settings
 from svsa.simulation.arm.tip_reference import AnyTipReference
 from svsa.simulation.plant.loads.tip import AnyTipLoad
@@ -32,7 +31,7 @@ def simulate_arm(
     feedforward: bool | None = None,
     adaptation: PayloadAdaptation | bool | None = None,
     tip: AnyTipReference | None = None,
-    tip_loads: Sequence[AnyTipLoad] | None = None,
+    tip_loads: AnyTipLoad | Sequence[AnyTipLoad] | None = None,
     arm: ArmParameters | None = None,
     model: ArmParameters | None = None,
     joint1: Mapping[str, Any] | None = None,
@@ -49,11 +48,12 @@ def simulate_arm(
         law: Name of the installed law of both joints.
         duration_s: Duration of the run, s.
         steps: Runge–Kutta steps in a control period.
-        feedforward: Whether the laws get what the arm's model explains along the references.
+        feedforward: Whether the laws get what the arm's model explains along the references; None:
+            as in the experiment.
         adaptation: Whether to estimate the mass at the tip for feedforward and nominal inertias,
-            or its parameters.
+            or its parameters; None: as in the experiment.
         tip: Reference of the tip, `TipEllipse` or `TipMove`, in place of those of the joints.
-        tip_loads: Loads at the tip: `TipMass`, `TipForce`, `TipImpulse`, `Wall`.
+        tip_loads: One load at the tip or several: `TipMass`, `TipForce`, `TipImpulse`, `Wall`.
         arm: Parameters of the links.
         model: Parameters of the links as the feedforward knows them; by default those of the arm.
         joint1: Settings of joint 1 only, by name, as of `changes`, and `law`.
@@ -73,15 +73,15 @@ def simulate_arm(
     """
     both = dict(changes) if law is None else {**changes, "law": law}
     fields = {"feedforward": feedforward, "links": arm, "model": arm if model is None else model}
-    fields["adaptation"] = PayloadAdaptation() if adaptation is True else adaptation or None
     fields["tip"] = tip
     given = {name: value for name, value in fields.items() if value is not None}
+    if adaptation is not None:
+        given["adaptation"] = PayloadAdaptation() if adaptation is True else adaptation or None
     each = (joint1 or {}, joint2 or {})
     c = build_arm_experiment(experiment, given, both, each, tip_loads)
     period = c.sampling.period_s
-    check_number("duration_s", duration_s, "s", period, MAX_TICKS * period)
-    check_number("steps", steps, "", 1, MAX_STEPS)
-    run, ticks, lanes = ArmRun(c, steps), round(duration_s / period), len(c.lanes)
+    ticks = check_size(duration_s, steps, period)
+    run, lanes = ArmRun(c, steps), len(c.lanes)
     at_ticks = build_commands(commands, period, duration_s)
     samples, masses = np.empty((lanes, ticks, len(CHANNELS))), np.empty((lanes // 2, ticks))
     run.keep_masses(masses)

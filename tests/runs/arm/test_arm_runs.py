@@ -15,6 +15,8 @@ from svsa.runs.arm.run import ArmRun
 
 LOAD = svsa.TipMass(mass_kg=0.1, start_s=5.0)
 BEFORE_S, AFTER_S = (2.0, 5.0), (8.0, 20.0)
+PUSH = svsa.ConstantLoad(torque_nm=(1.0, 0.0, 0.0))
+ELLIPSE = svsa.TipEllipse(center_m=(0.1, -0.4), radii_m=(0.1, 0.05), frequency_hz=0.5)
 LIGHT = build_rods(0.2, 0.2, 0.2, 0.2)
 """An arm that all laws but two carry with the parameters tuned for a single joint."""
 KNOWN = {
@@ -154,11 +156,36 @@ def place(q1, q2):
         ({"joint2": {"law": "nothing"}}, "joint2.law"),
         ({"experiment": "rod"}, "there is no such arm.*rods"),
         ({"stifness": 3.0}, "stifness"),
+        ({"steps": 1.5}, "steps is 1.5: it must be a whole number"),
+        ({"arm": {"length1_m": 0.3}}, "arm is .*: it must be svsa.ArmParameters"),
+        ({"tip_loads": [PUSH]}, r"tip_loads\[0\] is 'constant'.*loads of joint1 or joint2"),
+        ({"loads": LOAD}, "loads is 'at the tip'.*tip_loads"),
+        ({"tip": ELLIPSE, "position": 0.3}, "arm.tip is 'ellipse'.*replaces"),
+        ({"tip": ELLIPSE, "joint2": {"position": 0.3}}, "arm.tip is 'ellipse'.*replaces"),
     ],
 )
 def test_what_an_arm_cannot_have_is_named(given, message):
     with pytest.raises(svsa.ParameterError, match=message):
         svsa.simulate_arm(**given, duration_s=0.01)
+
+
+def test_one_load_at_the_tip_needs_no_list():
+    options = {"law": "fl", "duration_s": 0.05}
+    load = LOAD.changed(start_s=0.01)
+    one, listed = (svsa.simulate_arm(tip_loads=given, **options) for given in (load, [load]))
+    assert one.samples.tobytes() == listed.samples.tobytes()
+
+
+def test_options_of_a_configuration_stay_unless_they_are_given():
+    on = svsa.simulate_arm(feedforward=True, adaptation=True, duration_s=0.01).configuration
+    options = [(True, True), (False, None), (None, False)]
+    found = [
+        svsa.simulate_arm(on, feedforward=feedforward, adaptation=adaptation, duration_s=0.01)
+        for feedforward, adaptation in options
+    ]
+    setups = [one.configuration.require_arm() for one in found]
+    assert [one.feedforward for one in setups] == [True, False, True]
+    assert [one.adaptation is None for one in setups] == [False, False, True]
 
 
 def test_a_fault_names_its_joint_and_ends_both():
