@@ -17,6 +17,7 @@ from svsa.errors import Fault
 from svsa.runs.arm.experiment import split_joints
 from svsa.runs.command import Command
 from svsa.runs.configuration import Configuration
+from svsa.runs.events import find_law
 from svsa.runs.replay import list_loads
 from svsa.runs.result.law_style import name_law
 from svsa.runs.result.result import Result
@@ -36,6 +37,7 @@ class ArmResult:
         steps: Runge–Kutta steps a control period.
         commands: Changes during the run.
         comparisons: Results of the second arm, if there is one.
+        number: Number of the arm, from 0; 1 is the comparison.
     """
 
     configuration: Configuration
@@ -45,16 +47,33 @@ class ArmResult:
     steps: int = 1
     commands: tuple[Command, ...] = ()
     comparisons: "tuple[ArmResult, ...]" = field(default=(), repr=False)
+    number: int = 0
 
     @cached_property
     def joints(self) -> tuple[Result, Result]:
         """Result of each joint: channels, metrics, tables, plot."""
-        joints = split_joints(self.configuration)
+        each = zip(split_joints(self.configuration), self.samples, self._laws, strict=True)
         first, second = (
-            Result(joint, rows, self.fault, law=joint.law, name=f"Joint {number}")
-            for number, (joint, rows) in enumerate(zip(joints, self.samples, strict=True), 1)
-        )
+            Result(
+                configuration, rows, self.fault, law=law, commands=self._list_commands(number),
+                name=f"Joint {number}", steps=self.steps,
+            )
+            for number, (configuration, rows, law) in enumerate(each, start=1)
+        )  # fmt: skip
         return first, second
+
+    @property
+    def _laws(self) -> list[str]:
+        """Law of each joint of this arm at the beginning."""
+        return [joint.controllers[self.number].law for joint in self.configuration.joints]
+
+    def _list_commands(self, joint: int) -> tuple[Command, ...]:
+        """List the changes of a joint, of the comparison without those of the first arm's law."""
+        return tuple(
+            one
+            for one in self.commands
+            if one.joint in (None, joint) and (self.number == 0 or find_law(one) is None)
+        )
 
     @property
     def time_s(self) -> np.ndarray:
@@ -73,10 +92,7 @@ class ArmResult:
         Without the part of the gravity. Not finite where the arm is straight or folded.
         """
         q, sigma = self._read("position_rad"), self._read("stiffness_nm_per_rad")
-        l1, l2 = (
-            self.configuration.require_arm().links.length1_m,
-            self.configuration.require_arm().links.length2_m,
-        )
+        l1, l2 = self._lengths_m
         p = q[:, 0] + q[:, 1]
         jacobian = np.empty((len(q), 2, 2))
         jacobian[:, 0, 1], jacobian[:, 1, 1] = l2 * np.cos(p), l2 * np.sin(p)
@@ -96,14 +112,12 @@ class ArmResult:
         """
         force = np.zeros((self.samples.shape[1], 2))
         loads = list_loads(self.configuration, self.commands)
-        if not any(isinstance(held.load, Wall) for held in loads):
+        walls = [held for held in loads if isinstance(held.load, Wall)]
+        if not walls:
             return force
-        table = build_tip_table(loads, self.configuration.sampling.period_s)
-        arm, q, dq = (
-            self.configuration.require_arm().links.build(),
-            self._read("position_rad"),
-            self._read("velocity_rad_per_s"),
-        )
+        table = build_tip_table(walls, self.configuration.sampling.period_s)
+        arm = self.configuration.require_arm().links.build()
+        q, dq = self._read("position_rad"), self._read("velocity_rad_per_s")
         for tick, (angles, rates) in enumerate(zip(q.tolist(), dq.tolist(), strict=True)):
             at, velocity = turn(Joints(*angles)), Joints(*rates)
             tip, moves = compute_tip_position(arm, at), compute_tip_velocity(arm, at, velocity)
@@ -120,10 +134,7 @@ class ArmResult:
         return self.samples[:, :, CHANNEL_INDEX[channel]].T
 
     def _place(self, q: np.ndarray) -> np.ndarray:
-        l1, l2 = (
-            self.configuration.require_arm().links.length1_m,
-            self.configuration.require_arm().links.length2_m,
-        )
+        l1, l2 = self._lengths_m
         q1, p = q[:, 0], q[:, 0] + q[:, 1]
         x = l1 * np.sin(q1) + l2 * np.sin(p)
         return np.stack([x, -l1 * np.cos(q1) - l2 * np.cos(p)], 1)
@@ -145,11 +156,11 @@ class ArmResult:
         return first.rms_position_error_rad, second.rms_position_error_rad
 
     def __repr__(self) -> str:
-        c = self.configuration
-        laws = " and ".join(dict.fromkeys(name_law(joint.law) for joint in c.joints))
+        c, arm = self.configuration, self.configuration.require_arm()
+        laws = " and ".join(dict.fromkeys(map(name_law, self._laws)))
         options = {
-            "arm feedforward": self.configuration.require_arm().feedforward,
-            "adaptive payload": self.configuration.require_arm().adaptation is not None,
+            "arm feedforward": arm.feedforward,
+            "adaptive payload": arm.adaptation is not None,
         }
         on = "".join(f" + {name}" for name, is_on in options.items() if is_on)
         ticks = self.samples.shape[1]
@@ -187,7 +198,9 @@ def build_arm_results(
         The result of the first arm; the second one is its comparison.
     """
     first, *others = (
-        ArmResult(configuration, samples[2 * arm : 2 * arm + 2], mass, fault, steps, commands)
+        ArmResult(
+            configuration, samples[2 * arm : 2 * arm + 2], mass, fault, steps, commands, number=arm
+        )
         for arm, mass in enumerate(masses)
     )
     return replace(first, comparisons=tuple(others))

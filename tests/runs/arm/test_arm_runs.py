@@ -107,6 +107,26 @@ def test_joint_2_of_an_arm_that_joint_1_cannot_move_is_a_single_joint():
     assert of_arm.stiffness_nm_per_rad == pytest.approx(alone.stiffness_nm_per_rad, abs=0.01)
 
 
+def test_comparison_has_the_laws_of_the_second_arm():
+    result = svsa.simulate_arm(law="ndobc", comparisons=["fl"], duration_s=0.05)
+    (second,) = result.comparisons
+    assert [joint.law for joint in (*result.joints, *second.joints)] == ["ndobc"] * 2 + ["fl"] * 2
+    assert repr(result).startswith("Arm: NDOBC, ")
+    assert repr(second).startswith("Arm: FL, ")
+
+
+def test_joints_list_their_changes_of_the_law():
+    change = svsa.Change(at_s=0.02, joint=2, law="fl")
+    options = {"law": "ndobc", "comparisons": ["pd"], "duration_s": 0.05}
+    result = svsa.simulate_arm(**options, commands=[change])
+    (second,) = result.comparisons
+    found = [
+        [(law, rows.start) for law, rows in joint.list_segments()]
+        for joint in (*result.joints, *second.joints)
+    ]
+    assert found == [[("ndobc", 0)], [("ndobc", 0), ("fl", 20)], [("pd", 0)], [("pd", 0)]]
+
+
 def test_a_run_in_pieces_has_the_bits_of_one_call():
     """With every effect on, two laws, and loads on joints and tip that begin between the pieces."""
     c = build_arm_experiment(

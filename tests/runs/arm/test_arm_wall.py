@@ -1,6 +1,7 @@
 """The force of a wall on the tip, recomputed from the samples of a run."""
 
 import math
+import warnings
 
 import numpy as np
 import pytest
@@ -8,8 +9,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import svsa
-from svsa.actuators.signals import State
+from svsa.actuators.signals import CHANNEL_INDEX, State
+from svsa.runs.arm.experiment import build_arm_experiment
 from svsa.runs.arm.run import ArmRun
+from svsa.runs.command import ApplyLoad, RemoveLoad
+from svsa.runs.result.arm import ArmResult
+from svsa.runs.session.simulated import SimulatedSession
 from tests.simulation.arm.free_arm import UNDAMPED, compute_energy
 
 PERIOD_S = 0.0005
@@ -99,6 +104,23 @@ def test_without_wall_there_is_no_force():
     result = svsa.simulate_arm(tip_loads=[svsa.TipForce(force_n=(1.0, 0.0))], duration_s=0.01)
     assert result.wall_force_n.shape == (10, 2)
     assert not result.wall_force_n.any()
+
+
+def test_impulse_removed_before_it_acts_does_not_disturb_the_force_of_the_wall():
+    """An impulse divides by its duration, which is zero here."""
+    wall = svsa.Wall(normal_rad=0.0, distance_m=5.0, stiffness_n_per_m=1.0)
+    session = SimulatedSession("lab", build_arm_experiment("rods", {}, {}, tip_loads=[wall]))
+    session.step(5)
+    session.change(ApplyLoad(argument=svsa.TipImpulse(impulse_ns=(0.05, 0.0))))
+    session.change(RemoveLoad(argument=2))
+    session.step(5)
+    journal = session.journal
+    rows = journal.history.read(0, 1, list(CHANNEL_INDEX.values()), [0, 1]).transpose(1, 0, 2)
+    given = journal.initial, rows, np.zeros(rows.shape[1])
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        force = ArmResult(*given, commands=tuple(journal.commands)).wall_force_n
+    assert np.all(force[:, 0] > 1.0)
 
 
 def test_wall_acts_from_its_onset_on():
