@@ -198,6 +198,9 @@ class Configuration(Design):
             if wrong := _list_wrong(joint, arm, is_second=joint is second):
                 error = ParameterError(*wrong)
                 raise error.within(name) if name else error
+        if all(map(_has_push, (self, second))):
+            bound = "loads without a push at t = 0: one acts on joint 1 already"
+            raise ParameterError(Violation("arm.joint2.loads", "push", "", bound))
         if second.sampling != self.sampling:
             bound = f"{self.sampling.period_s:g} s, as that of joint 1"
             given = second.sampling.period_s
@@ -277,6 +280,12 @@ class Configuration(Design):
         """
         parameters = {**self.parameters, **design.parameters}
         return self.changed(**(dict(design) | {"parameters": parameters}))
+
+
+def _has_push(joint: Configuration) -> bool:
+    """Whether a push on the joint begins at t = 0. A run has at most one push on its joints."""
+    on_joint = (load for load in joint.loads if load.acts_as != TIP)
+    return any(load.is_push and load.start_s is None for load in on_joint)
 
 
 def _list_wrong(joint: Configuration, arm: ArmSetup, is_second: bool) -> list[Violation]:

@@ -180,6 +180,7 @@ def place(q1, q2):
         ({"arm": {"length1_m": 0.3}}, "arm is .*: it must be svsa.ArmParameters"),
         ({"tip_loads": [PUSH]}, r"tip_loads\[0\] is 'constant'.*loads of joint1 or joint2"),
         ({"loads": LOAD}, "loads is 'at the tip'.*tip_loads"),
+        ({"loads": svsa.PushLoad(torque_nm=(1.0, 0.0, 0.0))}, "joint2.loads is 'push'.*joint 1"),
         ({"tip": ELLIPSE, "position": 0.3}, "arm.tip is 'ellipse'.*replaces"),
         ({"tip": ELLIPSE, "joint2": {"position": 0.3}}, "arm.tip is 'ellipse'.*replaces"),
     ],
