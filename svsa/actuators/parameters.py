@@ -1,15 +1,22 @@
 """Parameters: the physics of the actuator and the limits of a run, frozen and checked."""
 
-from typing import Literal, Self
+from typing import Any, Literal, Self
 
 from pydantic import model_validator
 
 from svsa.errors import ParameterError, Violation
 from svsa.inputs.checked import Checked, Number, quantity
 
+INERTIAS_KG_M2 = (1e-6, 10.0)
+"""Smallest and largest inertia of a link or motor."""
 SVSA = "svsa"
 """The actuator of the paper, and of every record without an actuator name."""
 ReactionLaw = Literal["energy", "printed"]
+
+
+def _inertia(meaning: str) -> Any:
+    least, greatest = INERTIAS_KG_M2
+    return quantity("kg·m²", meaning, ge=least, le=greatest)
 
 
 class MechanismParameters(Checked):
@@ -28,9 +35,9 @@ class MechanismParameters(Checked):
         require_svsa(self, "this analysis")
         raise AssertionError
 
-    link_inertia_kg_m2: Number = quantity("kg·m²", "Output link inertia M", ge=1e-6, le=10)
-    motor1_inertia_kg_m2: Number = quantity("kg·m²", "Principal motor inertia B₁", ge=1e-6, le=10)
-    motor2_inertia_kg_m2: Number = quantity("kg·m²", "Stiffness motor inertia B₂", ge=1e-6, le=10)
+    link_inertia_kg_m2: Number = _inertia("Output link inertia M")
+    motor1_inertia_kg_m2: Number = _inertia("Principal motor inertia B₁")
+    motor2_inertia_kg_m2: Number = _inertia("Stiffness motor inertia B₂")
     link_damping_nms_per_rad: Number = quantity("N·m·s/rad", "Link damping D", ge=0, le=10)
     motor1_damping_nms_per_rad: Number = quantity("N·m·s/rad", "Motor 1 damping D₁", ge=0, le=10)
     motor2_damping_nms_per_rad: Number = quantity("N·m·s/rad", "Motor 2 damping D₂", ge=0, le=10)

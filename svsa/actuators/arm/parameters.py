@@ -1,6 +1,11 @@
 """Parameters of the two-link arm, and two arms with their sources."""
 
+from typing import Self
+
+from pydantic import model_validator
+
 from svsa.actuators.arm.dynamics import Arm, add_tip_mass
+from svsa.errors import ParameterError, Violation
 from svsa.inputs.checked import Checked, Number, quantity
 
 
@@ -25,6 +30,19 @@ class ArmParameters(Checked):
     )
     tip_mass_kg: Number = quantity("kg", "Mass at the tip", ge=0, le=20, default=0.0)
     gravity_m_per_s2: Number = quantity("m/s²", "Gravity g", ge=0, le=30, default=9.81)
+
+    @model_validator(mode="after")
+    def _check_inertia(self) -> Self:
+        """M(q) is nearest to singular at q2 = 0, where det M = a1 a2 − a3² is the sum below."""
+        m2, tip, l1, l2 = self.mass2_kg, self.tip_mass_kg, self.length1_m, self.length2_m
+        c2, inertia2 = self.center2_m, self.inertia2_kg_m2
+        link1 = self.inertia1_kg_m2 + self.mass1_kg * self.center1_m**2
+        link2 = inertia2 + m2 * c2**2 + tip * l2**2
+        about_elbow = (m2 + tip) * inertia2 + m2 * tip * (c2 - l2) ** 2
+        if not link1 * link2 + l1**2 * about_elbow > 0.0:
+            bound = "greater than 0: otherwise M(q) of the straight arm has no inverse"
+            raise ParameterError(Violation("inertia2_kg_m2", inertia2, "kg·m²", bound))
+        return self
 
     def build(self) -> Arm:
         """Build the constants of the compiled loop.

@@ -4,8 +4,10 @@ from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 from svsa.actuators.arm.parameters import MACCEPA_ARM, RODS, ArmParameters
+from svsa.actuators.parameters import INERTIAS_KG_M2
 from svsa.control.installed import PAPERS_LAW
 from svsa.errors import ParameterError, Violation
+from svsa.inputs.checked import check_number
 from svsa.inputs.nearest import suggest
 from svsa.runs.configuration import ArmSetup, Configuration
 from svsa.runs.experiment import build_actuator_experiment
@@ -148,6 +150,9 @@ def _build_named(name: str, arm: ArmParameters | None) -> Configuration:
     links = named.links if arm is None else arm
     if not isinstance(links, ArmParameters):
         raise ParameterError(Violation("arm", links, "", "svsa.ArmParameters"))
+    for number, inertia in enumerate(compute_joint_inertias(links), start=1):
+        name = f"the inertia of the arm about joint {number} at q2 = ±90°"
+        check_number(name, inertia, "kg·m²", *INERTIAS_KG_M2)
     first, second = (
         _build_joint(named.actuator, inertia, motion, stiffness=named.stiffness_nm_per_rad)
         for inertia, motion in zip(compute_joint_inertias(links), named.motions, strict=True)

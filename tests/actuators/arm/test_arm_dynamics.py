@@ -21,6 +21,7 @@ from svsa.actuators.arm.dynamics import (
     turn,
 )
 from svsa.actuators.arm.parameters import MACCEPA_ARM, RODS
+from svsa.errors import ParameterError
 
 ARM = MACCEPA_ARM.changed(tip_mass_kg=0.35, length1_m=0.31)
 angles = st.floats(-math.pi, math.pi)
@@ -77,6 +78,17 @@ def test_a_force_at_the_tip_has_the_power_of_its_joint_torques(q1, q2, dq1, dq2)
         for way in (1, -1)
     ]
     assert (ends[0] - ends[1]) / (2 * h) == pytest.approx(np.array(velocity), abs=1e-7)
+
+
+def test_links_whose_mass_matrix_is_singular_are_rejected():
+    """A link 2 without inertia about its joint, and two point masses, straight."""
+    points = {"center1_m": 0.0, "inertia1_kg_m2": 0.0, "inertia2_kg_m2": 0.0}
+    for changes in ({"center2_m": 0.0, "inertia2_kg_m2": 0.0}, points):
+        with pytest.raises(ParameterError, match=r"^inertia2_kg_m2 is 0\.0 kg·m²"):
+            RODS.changed(**changes)
+        arm = RODS.changed(**changes, tip_mass_kg=0.1).build()
+        M = compute_mass_matrix(arm, turn(Joints(0.0, 0.0)))
+        assert M.m11 * M.m22 - M.m12**2 > 1e-5
 
 
 def test_an_arm_at_rest_hanging_down_has_no_energy_and_needs_no_torque():

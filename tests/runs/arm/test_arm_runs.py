@@ -178,6 +178,7 @@ def place(q1, q2):
         ({"stifness": 3.0}, "stifness"),
         ({"steps": 1.5}, "steps is 1.5: it must be a whole number"),
         ({"arm": {"length1_m": 0.3}}, "arm is .*: it must be svsa.ArmParameters"),
+        ({"arm": RODS.changed(mass2_kg=50.0, length1_m=3.0)}, "about joint 1 .* is 451.*to 10 kg"),
         ({"tip_loads": [PUSH]}, r"tip_loads\[0\] is 'constant'.*loads of joint1 or joint2"),
         ({"loads": LOAD}, "loads is 'at the tip'.*tip_loads"),
         ({"loads": svsa.PushLoad(torque_nm=(1.0, 0.0, 0.0))}, "joint2.loads is 'push'.*joint 1"),
