@@ -93,10 +93,10 @@ def build_domain(actuator: MechanismParameters, limits: Limits) -> Domain:
 
 
 def _build_domain_of_energy(actuator: ElasticActuator, limits: Limits, has_motor: bool) -> Domain:
-    ends = limits.stiffness_min_nm_per_rad, limits.stiffness_max_nm_per_rad
+    ends = "stiffness_min_nm_per_rad", "stiffness_max_nm_per_rad"
     reached = [actuator.lowest, actuator.highest]
     if has_motor:
-        reached = sorted(_find_coordinate(actuator, sigma) for sigma in ends)
+        reached = sorted(_find_coordinate(actuator, limits, name) for name in ends)
     margin = limits.lever_ratio_margin * (reached[1] - reached[0])
     low = max(reached[0] - margin, actuator.lowest)
     high = min(reached[1] + margin, actuator.highest)
@@ -111,17 +111,18 @@ def _build_domain_of_energy(actuator: ElasticActuator, limits: Limits, has_motor
     )
 
 
-def _find_coordinate(actuator: ElasticActuator, sigma: float) -> float:
-    """Find s at an end of the stiffness range.
+def _find_coordinate(actuator: ElasticActuator, limits: Limits, end: str) -> float:
+    """Find s at an end of the stiffness range. end: field of the limits.
 
     Raises:
         ParameterError: If no s of the energy has this stiffness.
     """
+    sigma = getattr(limits, end)
     s = compute_coordinate_for_stiffness(actuator, sigma)
     found = compute_stiffness_of(actuator, s, 0.0)
     if not math.isclose(found, sigma, rel_tol=1e-9):
         bound = f"a stiffness that the energy gives; the nearest is {found:.4g} N·m/rad"
-        raise ParameterError(Violation("limits", sigma, "N·m/rad", bound))
+        raise ParameterError(Violation(f"limits.{end}", sigma, "N·m/rad", bound))
     return s
 
 

@@ -115,3 +115,21 @@ def test_actuator_without_stiffness_motor_needs_a_linear_spring():
 
     with pytest.raises(svsa.ParameterError, match="that of a linear spring"):
         compile_energy(build_wrong(harden, has_stiffness_motor=False))
+
+
+def test_the_end_of_the_stiffness_range_that_the_energy_does_not_reach_is_named():
+    """A twentieth of the torque of the springs: 1.2 N·m/rad at most."""
+    weak = QBMOVE.prototype.changed(spring_torque_nm=1e-4)
+    named = r"^limits\.stiffness_max_nm_per_rad is 15\.0 N·m/rad.*nearest is 1\.2"
+    with pytest.raises(svsa.ParameterError, match=named):
+        build_domain(weak, QBMOVE.limits)
+
+
+def test_lever_arm_of_maccepa_is_shorter_than_its_distance():
+    """Otherwise C − B is not the length of the spring at φ = 0."""
+    prototype = get_mechanism("maccepa").prototype
+    for arm in (0.125, 0.2):
+        with pytest.raises(
+            svsa.ParameterError, match=r"^arm_m is .* less than distance_m, 0\.125 m"
+        ):
+            prototype.changed(arm_m=arm)

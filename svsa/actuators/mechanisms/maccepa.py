@@ -3,7 +3,9 @@
 U(φ, s) = ½ κ_s (√(B² + C² − 2BC cos φ) − (C − B) + s)², with the pretension s = r θ2 ≥ 0.
 """
 
-from typing import Any, Literal
+from typing import Any, Literal, Self
+
+from pydantic import model_validator
 
 from svsa.actuators.drawing import Part, hold, place
 from svsa.actuators.mechanism import (
@@ -15,6 +17,7 @@ from svsa.actuators.mechanism import (
     perturb,
 )
 from svsa.actuators.parameters import Limits, MechanismParameters
+from svsa.errors import ParameterError, Violation
 from svsa.inputs.checked import Number, quantity
 
 _UNITS_PER_M = 10.0
@@ -28,6 +31,14 @@ class MaccepaParameters(MechanismParameters):
     arm_m: Number = quantity("m", "Lever arm B", gt=0, le=1)
     distance_m: Number = quantity("m", "Distance C from the joint to the spring", gt=0, le=1)
     pulley_m: Number = quantity("m", "Radius r of the pretension pulley", gt=0, le=1)
+
+    @model_validator(mode="after")
+    def _check_lengths(self) -> Self:
+        """s is the extension of the spring at φ = 0, where its length is C − B only for B < C."""
+        if not self.arm_m < self.distance_m:
+            bound = f"less than distance_m, {self.distance_m:g} m"
+            raise ParameterError(Violation("arm_m", self.arm_m, "m", bound))
+        return self
 
 
 def compute_energy(phi: Any, s: Any, p: Any, m: Any) -> Any:
