@@ -27,7 +27,7 @@ from svsa.numerics.compilation import compiled
 from svsa.numerics.exponential import expm1
 
 _SMALL = 1e-9
-"""Weight of m̂ = 0, (N·m/kg)² s: decides as long as the arm has not moved."""
+"""Weight of m̂ = 0, (N·m/kg)²: decides as long as the arm has not moved."""
 
 
 class PayloadAdaptation(Checked):

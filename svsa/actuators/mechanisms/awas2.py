@@ -31,7 +31,7 @@ class Awas2Parameters(MechanismParameters):
         "N·m/rad", "Stiffness k_l at s = 1/2", gt=0, le=1e6
     )
     pivot_slope_per_rad: Number = quantity(
-        "1/rad", "Motion κ of the pivot per turn of motor 2", gt=0, le=10
+        "1/rad", "Motion κ of the pivot per radian of motor 2", gt=0, le=10
     )
 
 

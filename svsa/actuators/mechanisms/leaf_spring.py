@@ -28,7 +28,7 @@ class LeafSpringParameters(MechanismParameters):
     mechanism: Literal["leaf_spring"] = "leaf_spring"
     bending_nm_m3: Number = quantity("N·m·m³", "Bending constant c", gt=0, le=1)
     roller_m_per_rad: Number = quantity(
-        "m/rad", "Motion −κ of the roller per turn of motor 2", gt=0, le=1
+        "m/rad", "Motion −κ of the roller per radian of motor 2", gt=0, le=1
     )
 
 
