@@ -37,7 +37,7 @@ class Collision(NamedTuple):
         stiffness_nm_per_rad: σ of both joints, N·m/rad.
         direction: 1 if the tip moves in the direction of x, −1 if it moves against it.
         speed_m_per_s: Speed towards the wall at the first contact. This and the following numbers
-            are NaN if the run ended before.
+            are NaN without a contact.
         impact_n: Largest force in the first 30 ms of the contact.
         peak_n: Largest force.
         work_j: Largest energy that the wall takes.
@@ -209,7 +209,8 @@ def _build_table(law: str, collisions: Sequence[Collision]) -> Table:
     table = Table(*heads, "holding [N]", title=f"Collision with a wall: {get_title(law)}")
     for one in collisions:
         numbers = (one.speed_m_per_s, one.impact_n, one.peak_n, one.work_j, one.holding_n)
-        cells = (f"{number:.3g}" if math.isfinite(number) else "fault" for number in numbers)
+        missing = "no contact" if one.fault is None else "fault"
+        cells = (f"{number:.3g}" if math.isfinite(number) else missing for number in numbers)
         sign = "+x" if one.direction > 0 else "−x"
         table.add_row(f"{one.stiffness_nm_per_rad:g}", sign, *cells)
     return table

@@ -27,13 +27,21 @@ _STIFFNESS_POLE = 40.0
 
 
 class ArmMap(NamedTuple):
-    """Of one controller: rms position error under the load, (stiffnesses, masses), degrees.
+    """Of one controller: rms position error under the load, over tip mass and stiffness.
 
     The greater one of both joints, from 8 to 20 s; infinite where the run ended in a fault.
+
+    Attributes:
+        title: Name of the controller.
+        errors_deg: (stiffnesses, masses), degrees.
+        masses_kg: Tip masses, kg.
+        stiffnesses_nm_per_rad: Stiffnesses of both joints, N·m/rad.
     """
 
     title: str
     errors_deg: np.ndarray
+    masses_kg: tuple[float, ...]
+    stiffnesses_nm_per_rad: tuple[float, ...]
 
 
 def measure_arm_map(
@@ -58,18 +66,21 @@ def measure_arm_map(
             run = simulate_arm(law=AnyLaw(law), stiffness=stiffness, tip_loads=loads, **settings)
             if run.fault is None:
                 errors[i, j] = math.degrees(max(run.measure(*WINDOW_S)))
-    return ArmMap(title, errors)
+    return ArmMap(title, errors, tuple(masses), tuple(stiffnesses))
 
 
 def draw_arm_maps(maps: Sequence[ArmMap]) -> "Figure":
-    """Draw a panel for each controller; needs the extra `plot`. A cross is a fault."""
+    """Draw a panel for each controller; needs the extra `plot`. A cross is a fault.
+
+    maps: of the same masses and stiffnesses.
+    """
     from matplotlib.colors import LogNorm
     from matplotlib.figure import Figure
 
-    columns = min(3, len(maps))
-    rows = math.ceil(len(maps) / columns)
-    figure = Figure(figsize=(4.2 * columns, 2.9 * rows + 0.4), layout="constrained")
-    axes = np.atleast_1d(figure.subplots(rows, columns, sharex=True, sharey=True)).ravel()
+    width = min(3, len(maps))
+    height = math.ceil(len(maps) / width)
+    figure = Figure(figsize=(4.2 * width, 2.9 * height + 0.4), layout="constrained")
+    axes = np.atleast_1d(figure.subplots(height, width, sharex=True, sharey=True)).ravel()
     shown: Any = None
     for axis, one in zip(axes, maps, strict=False):
         found = np.ma.masked_invalid(one.errors_deg)
@@ -79,9 +90,9 @@ def draw_arm_maps(maps: Sequence[ArmMap]) -> "Figure":
         for i, j in np.argwhere(~np.isfinite(one.errors_deg)):
             axis.plot(j, i, "x", color="tab:red", markersize=5)
         axis.set_title(one.title, fontsize=10)
-        axis.set_xticks(range(len(MASSES_KG)), [f"{mass:g}" for mass in MASSES_KG], fontsize=7)
-        ticks = [f"{stiffness:g}" for stiffness in STIFFNESSES_NM_PER_RAD]
-        axis.set_yticks(range(len(ticks)), ticks, fontsize=8)
+        columns, rows = map(_list_labels, (one.masses_kg, one.stiffnesses_nm_per_rad))
+        axis.set_xticks(range(len(columns)), columns, fontsize=7)
+        axis.set_yticks(range(len(rows)), rows, fontsize=8)
     for axis in axes[len(maps) :]:
         axis.set_visible(False)
     figure.supxlabel("tip mass [kg]", fontsize=10)
@@ -130,15 +141,19 @@ def arm_map(
     Console().print(*map(_build_table, maps), highlight=False)
 
 
+def _list_labels(values: Sequence[float]) -> list[str]:
+    return [f"{value:g}" for value in values]
+
+
 def _plain(error: float) -> float | None:
     return float(error) if math.isfinite(error) else None
 
 
 def _build_table(one: ArmMap) -> Table:
     title = f"{one.title}: rms position error [°] over σ [N·m/rad] and tip mass [kg]"
-    heads = (f"{mass:g}" for mass in MASSES_KG)
-    table = Table("σ", *heads, title=title, padding=0)
-    for stiffness, row in zip(STIFFNESSES_NM_PER_RAD, one.errors_deg, strict=True):
+    table = Table("σ", *_list_labels(one.masses_kg), title=title, padding=0)
+    labels = _list_labels(one.stiffnesses_nm_per_rad)
+    for label, row in zip(labels, one.errors_deg, strict=True):
         cells = (f"{error:.2g}" if math.isfinite(error) else "fault" for error in row)
-        table.add_row(f"{stiffness:g}", *cells)
+        table.add_row(label, *cells)
     return table

@@ -4,10 +4,11 @@ import json
 
 import numpy as np
 import pytest
+from rich.console import Console
 from typer.testing import CliRunner
 
 from svsa.cli import app
-from svsa.evaluation.arm_collision import draw_collisions, measure_collision
+from svsa.evaluation.arm_collision import _build_table, draw_collisions, measure_collision
 
 
 @pytest.mark.parametrize("direction", [1, -1])
@@ -32,6 +33,17 @@ def test_a_run_that_ends_before_the_wall_has_no_force():
     one = measure_collision("ndobc", 10.0, 1)
     assert one.fault is not None
     assert np.isnan(one.peak_n) and np.isnan(one.work_j) and not len(one.force_n)
+
+
+def test_a_collision_without_contact_is_no_fault(monkeypatch):
+    """The wall is out of reach."""
+    monkeypatch.setattr("svsa.evaluation.arm_collision._WALL_M", 0.3)
+    one = measure_collision("pd", 80.0, 1)
+    assert one.fault is None and np.isnan(one.peak_n)
+    console = Console(width=150)
+    with console.capture() as capture:
+        console.print(_build_table("pd", [one]))
+    assert "no contact" in capture.get() and "fault" not in capture.get()
 
 
 def test_collisions_are_drawn_by_direction(tmp_path):

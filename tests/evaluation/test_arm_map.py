@@ -9,12 +9,7 @@ from typer.testing import CliRunner
 
 import svsa
 from svsa.cli import app
-from svsa.evaluation.arm_map import (
-    MASSES_KG,
-    STIFFNESSES_NM_PER_RAD,
-    draw_arm_maps,
-    measure_arm_map,
-)
+from svsa.evaluation.arm_map import ArmMap, draw_arm_maps, measure_arm_map
 
 HEAVY = {"observer": 40.0, "gains": svsa.Gains.from_poles([-40] * 4, [-40] * 2)}
 ADAPTIVE = {**HEAVY, "feedforward": True, "adaptation": True}
@@ -34,12 +29,13 @@ def test_ndobc_does_not_carry_what_fl_does_and_both_do_with_the_payload_known():
 
 
 def test_a_map_is_drawn_with_its_faults(tmp_path):
-    maps = [measure_arm_map("fl", {}, "FL", MASSES_KG[:1], STIFFNESSES_NM_PER_RAD[:1])]
-    errors = np.full((len(STIFFNESSES_NM_PER_RAD), len(MASSES_KG)), maps[0].errors_deg[0, 0])
-    errors[-1, -1] = math.inf
-    figure = draw_arm_maps([maps[0]._replace(errors_deg=errors)] * 4)
+    one = ArmMap("FL", np.array([[0.1, 2.0, math.inf]]), (0.0, 0.1, 0.3), (80.0,))
+    figure = draw_arm_maps([one] * 4)
     assert [axis.get_title() for axis in figure.axes[:4]] == ["FL"] * 4
-    assert len(figure.axes[0].lines) == 1
+    axis = figure.axes[3]
+    assert len(axis.lines) == 1
+    assert [label.get_text() for label in axis.get_xticklabels()] == ["0", "0.1", "0.3"]
+    assert [label.get_text() for label in axis.get_yticklabels()] == ["80"]
     figure.savefig(tmp_path / "map.png")
 
 

@@ -69,8 +69,8 @@ class ArmScene:
         )
         self._comparison.show(None)
         self._loads = TipLoads(server, self._moved, self._scale)
-        softest = [find_mechanism(one).limits.stiffness_max_nm_per_rad for one in actuators]
-        self._ellipse = Ellipse(server, self._moved, max(softest), self._metres)
+        stiffest = [find_mechanism(one).limits.stiffness_max_nm_per_rad for one in actuators]
+        self._ellipse = Ellipse(server, self._moved, max(stiffest), self._metres)
         self._trails = (
             Trail(server, "/a/t", _TIP_COLOR, 3.0),
             Trail(server, "/a/td", _REFERENCE_COLOR, 2.0),
