@@ -13,14 +13,16 @@ from svsa.errors import ParameterError, StateError, Violation
 from svsa.runs.arm.experiment import reject_position
 from svsa.runs.configuration import Configuration
 from svsa.runs.run import Reached, Run
+from svsa.simulation.arm.contact import check_wall
 from svsa.simulation.arm.lane import ArmBlocks, ArmInputs, ArmState
 from svsa.simulation.arm.loop import adapt_blocks, advance_arm, plan, shift_estimate
 from svsa.simulation.arm.tip_loads import build_tip_table
 from svsa.simulation.loop.lane import Inputs
 from svsa.simulation.loop.slices import cut
-from svsa.simulation.plant.load_table import build_load_table
+from svsa.simulation.plant.load_table import ScheduledLoad, build_load_table
 from svsa.simulation.plant.loads import Load
 from svsa.simulation.plant.loads.load import MASS, TIP
+from svsa.simulation.plant.loads.tip import Wall
 from svsa.simulation.reference.transition import build_shape_stack
 
 
@@ -127,6 +129,12 @@ class ArmRun(Run):
         shared = arm.links.build(), arm.model.build(), arm.feedforward, elbow, adaptation
         pairs = zip(self.blocks[::2], self.blocks[1::2], strict=True)
         self.arms = [ArmBlocks(*shared, *pair) for pair in pairs]
+
+    def _schedule(self, load: Load, joint: int) -> ScheduledLoad:
+        if isinstance(load, Wall):
+            links = self.configuration.require_arm().links
+            check_wall(load, links.build(), self.period_s / self.steps)
+        return super()._schedule(load, joint)
 
     def _check_load(self, load: Load, joint: int) -> None:
         if load.acts_as == MASS:

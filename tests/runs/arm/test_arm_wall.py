@@ -100,6 +100,40 @@ def test_elastic_wall_returns_what_it_took():
     assert work == pytest.approx(-0.5 * 2000.0 * depth**2, abs=1e-3 * np.abs(work).max())
 
 
+MOVE = svsa.TipMove(start_m=(-0.2, -0.4), end_m=(0.2, -0.4), duration_s=1.2)
+HARD = svsa.Wall(normal_rad=math.pi, distance_m=-0.1, stiffness_n_per_m=2000.0)
+
+
+def hold(wall, steps=1):
+    """Mean force and its deviation in the last 0.5 s, while the tip leans on the wall."""
+    result = svsa.simulate_arm(law="pd", tip=MOVE, tip_loads=[wall], steps=steps, duration_s=3.0)
+    force = -result.wall_force_n[-500:, 0]
+    return force.mean(), force.std()
+
+
+def test_damping_that_the_steps_cannot_follow_is_rejected():
+    """1000 N·s/m would hold 5 N in place of 25 N: the tip rebounds at every step."""
+    wall = HARD.changed(damping_ns_per_m=1000.0)
+    with pytest.raises(svsa.ParameterError, match=r"^damping_ns_per_m is 1000.*at most 228"):
+        hold(wall)
+    with pytest.raises(svsa.ParameterError, match="at most 228"):
+        hold(wall.changed(start_s=1.0))
+    mean, deviation = hold(wall, steps=5)
+    assert mean == pytest.approx(24.7, abs=0.1) and deviation < 0.1
+
+
+def test_stiffness_that_the_steps_cannot_follow_is_rejected():
+    coarse = {"sampling": {"period_s": 0.004}, "duration_s": 0.01, "tip": MOVE}
+    wall = HARD.changed(stiffness_n_per_m=1e5)
+    with pytest.raises(svsa.ParameterError, match=r"^stiffness_n_per_m is 100000.*at most 3\.69"):
+        svsa.simulate_arm(tip_loads=[wall], **coarse)
+
+
+def test_largest_damping_is_followed():
+    mean, deviation = hold(HARD.changed(damping_ns_per_m=225.0))
+    assert mean == pytest.approx(24.74, abs=0.01) and deviation < 1e-3
+
+
 def test_without_wall_there_is_no_force():
     result = svsa.simulate_arm(tip_loads=[svsa.TipForce(force_n=(1.0, 0.0))], duration_s=0.01)
     assert result.wall_force_n.shape == (10, 2)
