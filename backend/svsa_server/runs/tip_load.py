@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Iterable, Sequence
-from itertools import pairwise
 
 from svsa.runs.command import Command
 from svsa.runs.configuration import Configuration
@@ -40,9 +39,11 @@ def trace_tip_loads(
     """
     changes = list_load_changes(configuration, commands)
     found = [(0, TipLoad())]
-    for (tick, loads), (following, _) in pairwise([*changes, (math.inf, ())]):
+    ends = [*(tick for tick, _ in changes[1:]), math.inf]
+    for (tick, loads), following in zip(changes, ends, strict=False):
         times = {time for one in loads for time in (one.start_tick, one.end_tick)}
-        for at in sorted({tick, *(time for time in times if tick < time < following)}):
+        between = (int(time) for time in times if tick < time < following)
+        for at in sorted({tick, *between}):
             load = sum_tip_loads(one.load for one in loads if one.is_on(at))
             if load != found[-1][1]:
                 found.append((max(0, at - first_tick), load))
