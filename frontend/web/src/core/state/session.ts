@@ -84,6 +84,14 @@ let selectionTimer: ReturnType<typeof setTimeout> | undefined;
 /** Incremented when the past of newly selected channels has arrived. */
 export const selectionCount = signal(0);
 
+/** Number of commands of the run, the last part of a revision; progress has no revision. */
+const countCommands = ({ revision }: Progress): number =>
+  revision === undefined ? Number.POSITIVE_INFINITY : Number(revision.split(".").at(-1));
+
+/** Two states of a paused session have the same tick: the answer to a request may come late. */
+const isOlder = (state: Progress, known: SessionState): boolean =>
+  state.tick < known.tick || countCommands(state) < countCommands(known);
+
 /**
  * Apply the server's message, unless a newer one is known. sinceTick: start of the reported past;
  * all of it if left out.
@@ -91,7 +99,7 @@ export const selectionCount = signal(0);
 export function acceptState(state: Progress, sinceTick = 0): void {
   const known = session.peek();
   if (known === null || state.run_number < known.run_number) return;
-  if (state.run_number === known.run_number && state.tick < known.tick) return;
+  if (state.run_number === known.run_number && isOlder(state, known)) return;
   applyState(mergeProgress(known, state, sinceTick));
 }
 

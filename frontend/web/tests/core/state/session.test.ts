@@ -1,7 +1,12 @@
 import "../../browserless";
 import { expect, it } from "vitest";
 import type { SessionState } from "../../../src/core/api/types";
-import { mergeProgress, type Progress } from "../../../src/core/state/session";
+import {
+  acceptState,
+  mergeProgress,
+  type Progress,
+  session,
+} from "../../../src/core/state/session";
 
 const segment = (name: string, end_tick: number | null) => ({ name, end_tick });
 const ended = (start_tick: number, end_tick: number) => ({ start_tick, end_tick });
@@ -55,4 +60,17 @@ it("forgets all where a message tells all, and what is over for a minute", () =>
 it("leaves alone what a message does not tell", () => {
   const joined = mergeProgress(KNOWN, { run_number: 1, tick: 900 }, 800);
   expect(joined).toEqual({ ...KNOWN, tick: 900 });
+});
+
+it("keeps the newer state of a paused session when an older answer arrives late", () => {
+  const pausedAfter = (commands: number) =>
+    stateAt(500, { revision: `5f.1.${commands}`, lanes: [], law: `law ${commands}` });
+  session.value = pausedAfter(9);
+  acceptState(pausedAfter(10));
+  acceptState(pausedAfter(9));
+  expect(session.value).toEqual(pausedAfter(10));
+  acceptState({ run_number: 1, tick: 500, speed: 2 });
+  expect(session.value).toEqual({ ...pausedAfter(10), speed: 2 });
+  acceptState({ ...pausedAfter(0), run_number: 2 });
+  expect(session.value.run_number).toBe(2);
 });
