@@ -1,4 +1,4 @@
-import { useEffect, useRef, useState } from "preact/hooks";
+import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import type { SessionEvent } from "../api/types";
 import { session } from "../state/session";
 import { text } from "../text/en";
@@ -21,7 +21,7 @@ interface MarkProps {
 /** One event: its label if there is space, and its description on hover or focus. */
 function Mark({ event, nextS }: MarkProps) {
   const [isOpen, setOpen] = useState(false);
-  useEffect(() => (isOpen ? closeOnEscape(() => setOpen(false)) : undefined), [isOpen]);
+  useLayoutEffect(() => (isOpen ? closeOnEscape(() => setOpen(false)) : undefined), [isOpen]);
   return (
     <li
       class={`mark ${isLoad(event) ? "is-load" : ""} ${event.kind === "fault" ? "is-fault" : ""}`}

@@ -111,7 +111,7 @@ function Card({ index }: { index: number }) {
   useEffect(() => {
     if (!isFirst) onward.current?.focus({ preventScroll: true });
   }, [index, isFirst]);
-  useEffect(() => closeOnEscape(endTour), []);
+  useLayoutEffect(() => closeOnEscape(endTour), []);
   const turn = (event: KeyboardEvent) => {
     if (event.key === "ArrowRight") go(1);
     if (event.key === "ArrowLeft") go(-1);
