@@ -35,6 +35,18 @@ localStorage.setItem("svsa.controls", "all");"""
 PATIENCE_MS = 60_000
 expect.set_options(timeout=PATIENCE_MS)  # a busy machine needs time
 
+open_context = Browser.new_context
+
+
+def new_context(self: Browser, **options: Any) -> BrowserContext:
+    """Open a context whose actions take as long as `expect`."""
+    context = open_context(self, **options)
+    context.set_default_timeout(PATIENCE_MS)
+    return context
+
+
+Browser.new_context = new_context
+
 press_at_once = Locator.press
 
 
@@ -102,7 +114,6 @@ class KeptPage:
     def get(self) -> Page:
         if self._page is None:
             self._page = self._browser.new_context(**self._arguments).new_page()
-            self._page.set_default_timeout(PATIENCE_MS)
         return self._page
 
     def forget(self) -> None:
@@ -161,7 +172,6 @@ def page(request: pytest.FixtureRequest) -> Page:
 
 @pytest.fixture
 def own_page(context: BrowserContext) -> Page:
-    context.set_default_timeout(PATIENCE_MS)
     return context.new_page()
 
 

@@ -1,29 +1,28 @@
 """Measurements in a page after its layout has settled."""
 
+import time
 from collections.abc import Callable
 
 from playwright.sync_api import FloatRect, Locator, Page
 
-LOOKS, BETWEEN_LOOKS_MS = 40, 150
+from tests.browser.conftest import PATIENCE_MS
+
+BETWEEN_LOOKS_MS = 150
 
 
 def until(page: Page, is_so: Callable[[], object]) -> None:
-    """Repeat until true, like `expect`."""
-    for _ in range(LOOKS):
-        if is_so():
-            return
+    """Repeat until true, for as long as `expect`."""
+    end = time.monotonic() + PATIENCE_MS / 1000
+    while not is_so():
+        assert time.monotonic() < end, f"not true within {PATIENCE_MS / 1000:g} s"
         page.wait_for_timeout(BETWEEN_LOOKS_MS)
-    assert is_so()
 
 
 def find_lasting(page: Page, find: Callable[[], list[str]]) -> list[str]:
-    """Return lasting problems: after a finding, the page is measured again."""
-    found = find()
-    for _ in range(LOOKS):
-        if not found:
-            break
+    """Return lasting problems: after a finding, the page is measured again, as `until` does."""
+    end = time.monotonic() + PATIENCE_MS / 1000
+    while (found := find()) and time.monotonic() < end:
         page.wait_for_timeout(BETWEEN_LOOKS_MS)
-        found = find()
     return found
 
 

@@ -52,7 +52,6 @@ def open_view(page: Page, lab: Lab) -> None:
 @pytest.fixture(scope="module")
 def opened_once(browser: Browser, browser_context_args: dict, shared_lab: Lab) -> Iterator[Page]:
     context = browser.new_context(**browser_context_args)
-    context.set_default_timeout(LONG_MS)
     page = context.new_page()
     open_view(page, shared_lab)
     yield page
