@@ -6,7 +6,14 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import BrowserContext, Page, expect
 
-from tests.browser.test_page import LAST_TIME, choose, go_to_page, open_page, wait_for_samples
+from tests.browser.test_page import (
+    LAST_TIME,
+    WORKER_MS,
+    choose,
+    go_to_page,
+    open_page,
+    wait_for_samples,
+)
 from tests.lab import Lab, run_lab
 from tests.waiting import follow
 
@@ -93,7 +100,7 @@ def test_restarted_server_is_found_with_its_recordings(page: Page, tmp_path: Pat
         for claim in ("Running", "Paused", "real time", "watching"):
             expect(bar.get_by_text(claim)).to_have_count(0)
     with (
-        page.expect_request("**/viser/lab/**") as view,
+        page.expect_request("**/viser/lab/**", timeout=WORKER_MS) as view,
         run_lab(port=port, data=str(tmp_path)) as lab,
     ):
         lab.client.post(lab.session + "/reset").raise_for_status()

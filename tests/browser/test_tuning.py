@@ -10,13 +10,12 @@ from playwright.sync_api import Locator, Page, Response, expect
 
 from svsa.runs.design_file import parse_design
 from tests.browser.settled import get_box, resize, until
-from tests.browser.test_page import go_to_page, open_page
-from tests.lab import Lab
+from tests.browser.test_page import WORKER_MS, go_to_page, open_page
+from tests.lab import PATIENCE_S, Lab
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
 
 CANDIDATES = 12
-PATIENCE_MS = 120_000  # the law may have to be compiled first
 
 
 def open_tuning(page: Page) -> Locator:
@@ -30,6 +29,10 @@ def begins_tuning(response: Response) -> bool:
     return response.request.method == "POST" and response.url.endswith("/jobs")
 
 
+def read(address: str) -> httpx.Response:
+    return httpx.get(address, timeout=PATIENCE_S, trust_env=False).raise_for_status()
+
+
 def tune(panel: Locator) -> dict[str, Any]:
     """Search FL + I from its present parameters to the end, and read the result.
 
@@ -40,13 +43,13 @@ def tune(panel: Locator) -> dict[str, Any]:
     with panel.page.expect_response(begins_tuning) as begun:
         panel.get_by_role("button", name="Start").press("Enter")
     address = f"{begun.value.url}/{begun.value.json()['id']}"
-    for _ in range(PATIENCE_MS // 200):
-        found = httpx.get(address, trust_env=False).raise_for_status().json()
+    for _ in range(WORKER_MS // 200):
+        found = read(address).json()
         if found["status"] == "done":
             break
         panel.page.wait_for_timeout(200)
     end = panel.get_by_text(f"FL + I: {CANDIDATES} of {CANDIDATES} candidates. Done.")
-    expect(end).to_be_visible(timeout=PATIENCE_MS)
+    expect(end).to_be_visible(timeout=WORKER_MS)
     return found["result"]
 
 
@@ -74,8 +77,7 @@ def test_law_is_tuned_and_the_best_result_is_applied_and_saved(page: Page, lab: 
     assert lab.read()["configuration"]["parameters"]["fl_integral"] == setting
     address = panel.get_by_role("link", name="Save as file").get_attribute("href")
     assert address is not None
-    text = httpx.get(address, trust_env=False).raise_for_status().text
-    saved = parse_design(text).parameters["fl_integral"]
+    saved = parse_design(read(address).text).parameters["fl_integral"]
     assert saved.model_dump(mode="json") == setting
 
     page.keyboard.press("Escape")

@@ -9,12 +9,12 @@ from playwright.sync_api import Page, Route, expect
 
 from svsa_server.problems import MEDIA_TYPE
 from tests.browser.runs.recorded import find_replay
+from tests.browser.settled import until
+from tests.browser.test_page import WORKER_MS
 from tests.lab import Lab
 from tests.waiting import follow_recording
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
-
-PATIENCE_MS = 60_000
 
 
 def read_moment(page: Page) -> float:
@@ -28,9 +28,10 @@ def test_slow_replay_is_reported(page: Page, lab: Lab, runs: tuple[str, str]) ->
     page.goto(f"{lab.url}/?run={runs[1]}", wait_until="commit")
     waiting = page.get_by_role("status").filter(has_text="Preparing the replay…")
     expect(waiting).to_be_visible()
+    until(page, lambda: held)
     expect(find_replay(page).get_by_role("button", name="Play")).to_have_count(0)
     held[0].continue_()
-    expect(find_replay(page).get_by_role("button", name="Play")).to_be_visible(timeout=PATIENCE_MS)
+    expect(find_replay(page).get_by_role("button", name="Play")).to_be_visible(timeout=WORKER_MS)
     expect(waiting).to_have_count(0)
 
 
@@ -66,11 +67,11 @@ def test_link_opens_the_same_run_at_the_same_time(
 ) -> None:
     page.goto(f"{lab.url}/?run={runs[0]}&t=5.25")
     time = find_replay(page).get_by_role("status", name="Time")
-    expect(time).to_have_text("5.25 s", timeout=PATIENCE_MS)
+    expect(time).to_have_text("5.25 s", timeout=WORKER_MS)
     plots = find_replay(page).get_by_role("region", name="Plots", exact=True)
     over = "one => [...one.children].at(-1).getBoundingClientRect().bottom - "
     over += "one.getBoundingClientRect().bottom"
-    assert plots.evaluate(over) < 0, "the axis of time lies within its panel"
+    until(page, lambda: plots.evaluate(over) < 0)  # the axis of time lies within its panel
     find_replay(page).get_by_role("slider", name="Time").fill("2.5")
     expect(page.get_by_role("button", name="Branch at 2.5 s")).to_be_visible()
     page.wait_for_url(re.compile(r"t=2\.5\b"))
