@@ -17,7 +17,7 @@ from typing import Any, NoReturn
 import pytest
 from websockets.sync.client import ClientConnection, connect
 
-LONG_S = 60.0
+LONG_S = 240.0
 BETWEEN_LOOKS_S = 0.1
 LARGEST_MESSAGE = 1 << 26
 # No start page, and no requests to other sites.
@@ -156,7 +156,9 @@ def run_firefox(path: str, display: str | None = None, **preferences: object) ->
         )
         try:
             url = _wait_for_address(process)
-            with connect(f"{url}/session", max_size=LARGEST_MESSAGE, proxy=None) as connection:
+            # Without pings: Firefox answers none while it is busy with a page.
+            options = {"open_timeout": LONG_S, "ping_interval": None, "proxy": None}
+            with connect(f"{url}/session", max_size=LARGEST_MESSAGE, **options) as connection:
                 yield Firefox(connection)
         finally:
             _end(process)

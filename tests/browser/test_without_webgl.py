@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from tests.browser.conftest import ARGUMENTS, PATIENCE_MS
+from tests.browser.conftest import ARGUMENTS
 from tests.browser.settled import get_box, until
 from tests.browser.test_page import come_back, wait_for_samples
 from tests.browser.test_view import wait_for_view
@@ -18,6 +18,7 @@ pytestmark = pytest.mark.browser
 NOTE = "This browser has no WebGL, which the 3D view needs."
 PICTURE = "The actuator from the front"
 LARGEST_DIFFERENCE_DEG = 0.1
+SAMPLE_S = 0.02
 BORDER_PX = 2.0
 PARTS = {"q": "/a/l", "q_d": "/a/g", "q of FL": "/a/r0"}
 
@@ -66,7 +67,6 @@ def flat_browser(launch_browser: Callable[..., Browser]) -> Iterator[Browser]:
 @pytest.fixture
 def flat(flat_browser: Browser, browser_context_args: dict) -> Iterator[Page]:
     context = flat_browser.new_context(**browser_context_args)
-    context.set_default_timeout(PATIENCE_MS)
     yield context.new_page()
     context.close()
 
@@ -83,9 +83,9 @@ def test_view_states_why_there_is_no_3d_and_draws_the_same_poses(
     comparisons = {"comparisons": [{"law": "fl"}]}
     lab.client.put(lab.session + "/lanes", json=comparisons).raise_for_status()
     lab.client.post(lab.session + "/loads", json={"kind": "paper"}).raise_for_status()
-    lab.jump(3)
+    newest_s = lab.jump(3)["time_s"] - SAMPLE_S
     open_flat(flat, lab)
-    wait_for_samples(flat, after_s=2.5)
+    wait_for_samples(flat, newest_s)
     expect(flat.get_by_text(NOTE)).to_be_in_viewport(ratio=1)
     expect(flat.locator(".view iframe")).to_have_count(0)
     expect(flat.get_by_role("button", name=re.compile("^Camera"))).to_have_count(0)
@@ -94,18 +94,21 @@ def test_view_states_why_there_is_no_3d_and_draws_the_same_poses(
     wait_for_view(own_page)
     own_page.get_by_role("button", name="Camera: Front").click()
     wait_for_view(own_page)
+    wait_for_samples(own_page, newest_s)
 
-    drawn = flat.evaluate(ANGLES_2D)
     state = own_page.evaluate(
         """() => [["position_rad", 1], ["position_reference_rad", 1], ["position_rad", 2]]
             .map(([channel, lane]) => window.svsa.series(channel, lane).value.at(-1))"""
     )
     sampled = dict(zip(PARTS, map(math.degrees, state), strict=True))
     assert abs(sampled["q of FL"] - sampled["q"]) > 5
-    assert drawn == pytest.approx(sampled, abs=LARGEST_DIFFERENCE_DEG)
+    until(
+        flat,
+        lambda: flat.evaluate(ANGLES_2D) == pytest.approx(sampled, abs=LARGEST_DIFFERENCE_DEG),
+    )
     until(
         own_page,
-        lambda: own_page.evaluate(ANGLES_3D, PARTS) == pytest.approx(drawn, abs=1.0),
+        lambda: own_page.evaluate(ANGLES_3D, PARTS) == pytest.approx(sampled, abs=1.0),
     )
 
 
@@ -118,17 +121,22 @@ def test_tour_points_at_existing_elements(flat: Page, lab: Lab, width: int, heig
     tour = flat.get_by_role("region", name="Tour of the lab")
     tour.get_by_role("button", name="Take the tour").click()
     expect(tour).to_contain_text("The thick line is the link, seen from the front")
-    frame = get_box(flat.locator(".tour-ring"))
-    picture = get_box(flat.get_by_role("img", name=PICTURE))
-    for start, size in (("x", "width"), ("y", "height")):
-        assert picture[start] >= frame[start] - BORDER_PX
-        assert picture[start] + picture[size] <= frame[start] + frame[size] + BORDER_PX
+    ring = flat.locator(".tour-ring")
+
+    def is_around_the_picture() -> bool:
+        frame, picture = get_box(ring), get_box(flat.get_by_role("img", name=PICTURE))
+        return all(
+            picture[start] >= frame[start] - BORDER_PX
+            and picture[start] + picture[size] <= frame[start] + frame[size] + BORDER_PX
+            for start, size in (("x", "width"), ("y", "height"))
+        )
+
+    until(flat, is_around_the_picture)
     for title in ("The plots", "The 3 kg load", "FL or NDOBC", "All controls"):
         tour.get_by_role("button", name="Next").click()
         expect(tour.get_by_role("heading")).to_have_text(title)
-        expect(flat.locator(".tour-ring")).to_be_in_viewport()
-        frame = get_box(flat.locator(".tour-ring"))
-        assert min(frame["width"], frame["height"]) > 20, f"{title}: nothing is there"
+        expect(ring).to_be_in_viewport()
+        until(flat, lambda: min(get_box(ring)["width"], get_box(ring)["height"]) > 20)
 
 
 @pytest.mark.parametrize("kind", ["paper", "mass"])
