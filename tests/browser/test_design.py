@@ -150,9 +150,13 @@ def test_opened_panel_leaves_the_transport_controls_accessible(
     page.set_viewport_size({"width": width, "height": 844})
     open_page(page, still_lab)
     page.keyboard.press("?")
-    below = get_box(page.get_by_role("dialog", name="Keyboard"))["y"]
-    transport = get_box(page.get_by_role("button", name="Run", exact=True))
-    assert transport["y"] + transport["height"] <= below
+    keys = page.get_by_role("dialog", name="Keyboard")
+
+    def is_below_the_transport() -> bool:
+        transport = get_box(page.get_by_role("button", name="Run", exact=True))
+        return transport["y"] + transport["height"] <= get_box(keys)["y"]
+
+    until(page, is_below_the_transport)
 
 
 def test_unstable_design_faults_in_a_private_simulation(

@@ -30,7 +30,7 @@ def open_wide(page: Page, lab: Lab, query: str) -> None:
 
 
 def expect_no_scrolling(page: Page) -> None:
-    assert page.evaluate(COUNT_SCROLLING) == 0
+    page.wait_for_function(f"() => ({COUNT_SCROLLING})() === 0")
 
 
 def test_the_studies_open_on_a_finished_example(page: Page, fresh_lab: Lab) -> None:

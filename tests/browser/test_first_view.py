@@ -6,9 +6,10 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.browser.measured_layout import FIND_PROBLEMS
-from tests.browser.settled import get_box, resize
+from tests.browser.settled import get_box, resize, until
 from tests.browser.test_accessibility import PHONE, WIDE, expect_no_violation
 from tests.browser.test_page import come_back, go_to_page, wait_for_samples
+from tests.browser.test_plot_choice import IS_DRAWN_WHOLE
 from tests.browser.visited_layout import LEAST_PLOT_PX, SIZES, measure
 from tests.lab import Lab
 
@@ -49,7 +50,7 @@ def test_first_view_has_few_controls_and_remembers_the_switch_to_all(page: Page,
     assert 0 < page.evaluate(COUNT_CONTROLS) <= MOST_BASIC
     switch.click()
     expect(amplitude).to_be_visible()
-    assert page.evaluate(COUNT_CONTROLS) >= LEAST_ALL
+    page.wait_for_function(f"() => ({COUNT_CONTROLS})() >= {LEAST_ALL}")
     page.reload()
     expect(amplitude).to_be_visible()
     switch.click()
@@ -114,8 +115,8 @@ def test_first_view_is_complete_at_each_size(page: Page, lab: Lab) -> None:
 def test_controller_uses_the_width_of_its_panel_on_a_tablet(page: Page, lab: Lab) -> None:
     page.set_viewport_size({"width": 820, "height": 1180})
     open_first(page, lab)
-    panel, law = get_box(page.locator("#controls")), get_box(page.locator(".compare"))
-    assert law["width"] > 0.7 * panel["width"]
+    panel, law = page.locator("#controls"), page.locator(".compare")
+    until(page, lambda: get_box(law)["width"] > 0.7 * get_box(panel)["width"])
 
 
 # Bars that stay at the top and the bottom of a phone, px.
@@ -174,6 +175,7 @@ def test_plots_of_a_paused_session_take_the_colors_of_a_new_theme(page: Page, la
         page.emulate_media(color_scheme=scheme)  # pyright: ignore[reportArgumentType]
         open_first(page, lab)
         page.wait_for_function(f"() => ({COLOR})() !== ''")
+        page.wait_for_function(IS_DRAWN_WHOLE)
         colors[scheme] = page.evaluate(COLOR)
     assert colors["light"] != colors["dark"]
     page.emulate_media(color_scheme="light")

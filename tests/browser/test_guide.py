@@ -1,10 +1,12 @@
 """The guide at /docs/guide/ by axe-core, where long lines and tables scroll."""
 
+from functools import partial
 from pathlib import Path
 
 import pytest
 from playwright.sync_api import Page, expect
 
+from tests.browser.settled import find_lasting
 from tests.browser.test_accessibility import AXE, FIND_VIOLATIONS, PHONE, TAGS, WIDE
 from tests.docs.test_questions import site  # noqa: F401
 from tests.lab import Lab
@@ -24,6 +26,6 @@ def test_a_page_has_no_violation(page: Page, still_lab: Lab, site: Path, name: s
         page.set_viewport_size({"width": width, "height": height})
         for scheme in ("light", "dark"):
             page.emulate_media(color_scheme=scheme)
-            texts = page.evaluate(FIND_VIOLATIONS, TAGS)
+            texts = find_lasting(page, partial(page.evaluate, FIND_VIOLATIONS, TAGS))
             found += [f"{width} px, {scheme}: {text}" for text in texts]
     assert not found, "\n".join(found)

@@ -46,6 +46,7 @@ def open_page(page: Page, lab: Lab) -> None:
 
 def show_all_controls(page: Page) -> None:
     """Leave the basic view, which a bench and an exercise do not have."""
+    expect(page.locator("main.lab")).to_be_attached()  # drawn together with the switch
     basic = page.get_by_role("switch", name="All controls", checked=False)
     if basic.count() > 0:
         basic.press("Enter")
@@ -93,7 +94,10 @@ def unfold(part: Locator) -> None:
 
 
 def choose(one: Locator) -> None:
-    """Select a radio button or a checkbox by key, for the same reason; the server confirms it."""
+    """Select a radio button or a checkbox by key, for the same reason.
+
+    The page shows the choice at once, before the server has answered.
+    """
     one.press("Space")
     expect(one).to_be_checked()
 

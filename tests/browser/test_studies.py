@@ -8,6 +8,7 @@ from playwright.sync_api import Page, expect
 
 from svsa.evaluation.studies.execution import run_study
 from svsa.evaluation.studies.store import keep_study
+from tests.browser.settled import get_box, until
 from tests.browser.test_accessibility import PHONE, TABLET, WIDE, expect_no_violation
 from tests.browser.test_page import WORKER_MS
 from tests.evaluation.studies.studies import VARIED, build_study
@@ -56,10 +57,12 @@ def test_study_is_selected_from_and_opens_a_run(
     expect(page.get_by_role("heading", name=re.compile("^Study short, row "))).to_be_visible()
 
     page.goto(address)
-    expect(page.get_by_text(re.compile(r"^\d+ of 80 runs in the brush"))).to_be_visible()
+    expect(page.get_by_text(re.compile(r"^\d+ of 80 runs in the brush"))).to_be_visible(
+        timeout=WORKER_MS
+    )
     brush = plane.locator(".u-select")
     expect(brush).to_be_visible()
-    assert (brush.bounding_box() or {"width": 0})["width"] > 100
+    until(page, lambda: get_box(brush)["width"] > 100)
 
 
 def test_invalid_text_is_reported_with_its_line_and_nothing_is_started(
@@ -95,5 +98,8 @@ def test_bars_of_the_sensitivity_have_the_length_of_its_sobol_indices(
     page.goto(studied.url + "/?studies=decided")
     panel = page.get_by_role("region", name="Sensitivity of the success")
     expect(panel).to_be_visible(timeout=WORKER_MS)
-    drawn = [share for row in panel.evaluate(SHARES_SHOWN) for share in row]
-    assert drawn == pytest.approx(expected, abs=0.01)
+
+    def read_drawn() -> list[float]:
+        return [share for row in panel.evaluate(SHARES_SHOWN) for share in row]
+
+    until(page, lambda: read_drawn() == pytest.approx(expected, abs=0.01))
