@@ -22,7 +22,6 @@ const NAMES = ["/a/n1", "/a/n2", "/a/c/s/n3", "/a/c/p/n4", "/a/l/v/n5", "/a/l/n6
 const LOW_PERIOD_MS = 1000 / 15;
 const STORE = "svsa.graphics";
 const WAIT_MS = 100;
-const PATIENCE = 300;
 const UNMOVED = 0.01;
 
 export const isLow = signal(readStored(STORE) === "low");
@@ -37,13 +36,6 @@ export function toggleLow(): void {
 
 export function toggleNames(): void {
   areNamesOn.value = !areNamesOn.peek();
-}
-
-/** Wait until viser's page has loaded in the frame. */
-export function enterView(frame: HTMLIFrameElement, tries = PATIENCE): void {
-  const found = (frame.contentWindow as ViserWindow | null)?.__viserMutable;
-  if (found?.camera) viser.value = limitFrameRate(found);
-  else if (tries > 0 && frame.isConnected) setTimeout(() => enterView(frame, tries - 1), WAIT_MS);
 }
 
 export const cameraNow = (): Camera | null => viser.peek()?.camera ?? null;
@@ -70,6 +62,20 @@ export function setCamera(name: CameraName): void {
       { type: "SetCameraPositionMessage", position, initial: false },
     );
   viser.peek()?.requestRender();
+}
+
+/**
+ * Wait until viser's page has loaded in the frame. A camera that was selected, or a picture that
+ * changed its shape, until then takes effect now.
+ */
+export function enterView(frame: HTMLIFrameElement): void {
+  const found = (frame.contentWindow as ViserWindow | null)?.__viserMutable;
+  if (!found?.camera) {
+    if (frame.isConnected) setTimeout(() => enterView(frame), WAIT_MS);
+    return;
+  }
+  viser.value = limitFrameRate(found);
+  if (sent !== null) setCamera(sent.name);
 }
 
 /** Fit the preset to a picture of another shape, unless the user has moved the camera since. */

@@ -19,7 +19,7 @@ interface ViserWindow extends Window {
 
 type Value = string | boolean | number[];
 
-const PATIENCE_MS = 30_000;
+const WAIT_MS = 50;
 
 /** Index of the last key at or before a frame. */
 function findKey(keys: Float32Array, frame: number): number {
@@ -97,17 +97,16 @@ export class Scene {
     );
   }
 
-  /** Wait until viser has built the scene; false if it does not start. */
+  /** Wait until viser has built the scene; false if its frame is removed before. */
   async connect(frame: HTMLIFrameElement): Promise<boolean> {
     const names = this.motion.tracks.map((track) => track.name);
-    const end = performance.now() + PATIENCE_MS;
-    while (performance.now() < end) {
+    while (frame.isConnected) {
       const viser = (frame.contentWindow as ViserWindow | null)?.__viserMutable;
       if (viser && names.every((name) => name in viser.nodePoseData)) {
         this.#viser = viser;
         return true;
       }
-      await new Promise((resolve) => setTimeout(resolve, 50));
+      await new Promise((resolve) => setTimeout(resolve, WAIT_MS));
     }
     return false;
   }

@@ -11,6 +11,8 @@ import { findMark, type Recording, type Run } from "./data";
 import { Scene } from "./scene";
 
 const FASTEST_MS = 1000 / 30;
+/** The view is reported as missing after this time, and still shown if it starts later. */
+const PATIENCE_MS = 30_000;
 
 /** Shows the clock's time in 3D, at most 30 times per second. */
 function followClock(scene: Scene): () => void {
@@ -50,7 +52,10 @@ export function View({ recording: { run, arrays } }: { recording: Recording }) {
     const ends: (() => void)[] = [];
     const start = async () => {
       element.contentWindow?.addEventListener("keydown", handleKey, true);
-      if (!(await scene.connect(element))) return setState("failed");
+      const giveUp = window.setTimeout(() => setState("failed"), PATIENCE_MS);
+      const isBuilt = await scene.connect(element);
+      window.clearTimeout(giveUp);
+      if (!isBuilt) return;
       ends.push(effect(() => scene.setTheme(theme.value === "dark")));
       ends.push(followClock(scene));
       setState("shown");
