@@ -1,5 +1,5 @@
 /** The user's identity, joining the lab or class, and the activity of the class. */
-import { request } from "./request";
+import { request, WORK_TIMEOUT_MS } from "./request";
 import type { components } from "./schema";
 
 type Schemas = components["schemas"];
@@ -36,12 +36,10 @@ export interface AuditQuery {
   /** Cursor of the first page, from which the others continue; empty for the newest entries. */
   until: string;
 }
-/** A worker needs some time to read the whole log. */
-const LONG_TIMEOUT_MS = 60_000;
 export function readAudit({ person, kind, onlyRefused, page, until }: AuditQuery) {
   const query = new URLSearchParams({ person, kind, until, page: String(page) });
   if (onlyRefused) query.set("refused", "true");
-  return request("get", `class/audit?${query}`, undefined, LONG_TIMEOUT_MS) as Promise<AuditPage>;
+  return request("get", `class/audit?${query}`, undefined, WORK_TIMEOUT_MS) as Promise<AuditPage>;
 }
 const personPath = (id: string) => `class/people/${encodeURIComponent(id)}`;
 const setRemoved = (id: string, removed: boolean) => request("patch", personPath(id), { removed });

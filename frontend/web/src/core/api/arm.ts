@@ -1,5 +1,5 @@
 /** Arms: two joints with an actuator in each, as one session. */
-import { request } from "./request";
+import { request, WORK_TIMEOUT_MS } from "./request";
 import type { components } from "./schema";
 import type { Configuration, SessionState } from "./types";
 
@@ -9,16 +9,13 @@ export type Joint = 1 | 2;
 /** Fields that are left out keep their values. */
 export type ArmPatch = Partial<Omit<ArmSetup, "joint2">>;
 
-/** The first session of an actuator compiles its control loop. */
-const LONG_TIMEOUT_MS = 180_000;
-
 export const readArms = () => request("get", "arms") as Promise<ArmRow[]>;
 
-/** actuators: of joint 1 and joint 2; those of the arm if left out. */
+/** The first one compiles its control loop. actuators: of joint 1 and joint 2; those of the arm if left out. */
 export const openArm = (arm: string, actuators?: readonly [string, string]) =>
   request(
     "post",
     "sessions",
     { from: "arm", arm, ...(actuators && { actuators }) },
-    LONG_TIMEOUT_MS,
+    WORK_TIMEOUT_MS,
   ) as Promise<SessionState>;

@@ -3,7 +3,7 @@
 import type { ArmPatch, Joint } from "./arm";
 import { ChangedError, RefusedError, UnansweredError } from "./errors";
 import { awaitOutcome } from "./outcome";
-import { API, client, DEFAULT_TIMEOUT_MS, request, sessionName } from "./request";
+import { API, client, DEFAULT_TIMEOUT_MS, request, sessionName, WORK_TIMEOUT_MS } from "./request";
 import type {
   ActuatorParameters,
   Axis,
@@ -27,12 +27,11 @@ import type {
 
 const SESSION = `sessions/${encodeURIComponent(sessionName)}`;
 const STOP_TIMEOUT_MS = 1500;
-const LONG_TIMEOUT_MS = 60_000;
 
 /** Opens a private session, of an arm if one is named; returns its name. */
 export const openPrivateSession = async (arm = "") => {
   const wanted = arm === "" ? {} : { from: "arm", arm };
-  return ((await request("post", "sessions", wanted, LONG_TIMEOUT_MS)) as SessionState).session;
+  return ((await request("post", "sessions", wanted, WORK_TIMEOUT_MS)) as SessionState).session;
 };
 
 const SETTINGS =

@@ -1,7 +1,7 @@
 /** The course: exercises, progress, measured runs and grades. */
 
 import type { Job } from "./jobs";
-import { API, request, sessionName } from "./request";
+import { API, request, sessionName, WORK_TIMEOUT_MS } from "./request";
 import type { components } from "./schema";
 import type { SessionState } from "./types";
 
@@ -13,7 +13,6 @@ export type Step = Schemas["StepState"];
 export type CriterionResult = Schemas["CriterionResult"];
 type Judgement = Schemas["Judgement"];
 
-const LONG_TIMEOUT_MS = 60_000;
 const pathOf = (exercise: string, rest = "") => `course/${encodeURIComponent(exercise)}${rest}`;
 const stepOf = (exercise: string, step: string, rest: string) =>
   pathOf(exercise, `/steps/${encodeURIComponent(step)}/${rest}`);
@@ -27,17 +26,17 @@ export const putPlace = (exercise: string, step: string) =>
 export const putAnswer = (exercise: string, step: string, answer: number | string) =>
   request("put", stepOf(exercise, step, "answer"), { answer }) as Promise<Exercise>;
 export const checkRun = (exercise: string, step: string, run: string) =>
-  request("post", stepOf(exercise, step, "check"), { run_id: run }, LONG_TIMEOUT_MS) as Promise<
+  request("post", stepOf(exercise, step, "check"), { run_id: run }, WORK_TIMEOUT_MS) as Promise<
     CriterionResult[]
   >;
 export const putLaw = (exercise: string, law: string) =>
-  request("put", pathOf(exercise, "/law"), { text: law }, LONG_TIMEOUT_MS) as Promise<Exercise>;
+  request("put", pathOf(exercise, "/law"), { text: law }, WORK_TIMEOUT_MS) as Promise<Exercise>;
 export const submit = (exercise: string, student: string) =>
   request(
     "post",
     pathOf(exercise, "/submission"),
     { student },
-    LONG_TIMEOUT_MS,
+    WORK_TIMEOUT_MS,
   ) as Promise<Judgement>;
 /** Set up this page's session for an experiment, at t = 0 and paused. */
 export const setUpStep = (exercise: string, step: string) =>
@@ -65,7 +64,7 @@ export type Grade = NonNullable<Submission["grade"]>;
 
 /** The first request tests whether this machine can isolate a law. */
 export const readGrades = () =>
-  request("get", "grades", undefined, LONG_TIMEOUT_MS) as Promise<Grades>;
+  request("get", "grades", undefined, WORK_TIMEOUT_MS) as Promise<Grades>;
 export const gradeClass = (again: boolean) => request("post", "grades", { again }) as Promise<Job>;
 export const readOwnGrades = async () =>
   (await readGrades()).students.flatMap(({ submissions }) => submissions);

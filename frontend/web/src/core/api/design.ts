@@ -1,5 +1,5 @@
 /** Predictions for a design or a reference, computed by the server; the session stays unchanged. */
-import { request, sessionName } from "./request";
+import { request, sessionName, WORK_TIMEOUT_MS } from "./request";
 import type { components } from "./schema";
 import type { Load, PositionReference, RequestOf, SessionState, StiffnessReference } from "./types";
 
@@ -17,23 +17,16 @@ export type Endurance = Schemas["EnduranceState"];
 type PredictRequest = Omit<Partial<Schemas["PredictionRequest"]>, "kind">;
 
 const SESSION = `sessions/${encodeURIComponent(sessionName)}`;
-/** The start of a worker process takes some time. */
-const DESIGN_TIMEOUT_MS = 30_000;
 
 const analyze = (designRequest: object) =>
-  request("post", `${SESSION}/design`, designRequest, DESIGN_TIMEOUT_MS);
+  request("post", `${SESSION}/design`, designRequest, WORK_TIMEOUT_MS);
 
 export const predict = (designRequest: PredictRequest) =>
   analyze({ kind: "prediction", ...designRequest }) as Promise<Prediction>;
 
 /** On a bench: the motor that heat will limit under this load, and when; null if none. */
 export const predictHeat = (load: Load) =>
-  request(
-    "post",
-    `${SESSION}/bench/endurance`,
-    load,
-    DESIGN_TIMEOUT_MS,
-  ) as Promise<Endurance | null>;
+  request("post", `${SESSION}/bench/endurance`, load, WORK_TIMEOUT_MS) as Promise<Endurance | null>;
 
 export const requestResponse = (designRequest: DesignRequest) =>
   analyze({ kind: "response", ...designRequest }) as Promise<DesignResponse>;
@@ -45,11 +38,12 @@ export const requestRegion = (designRequest: RegionRequest) =>
   analyze({ kind: "region", ...designRequest }) as Promise<Region>;
 /** Open a private simulated session with this design, stable or not. */
 export const simulateDesign = (designRequest: DesignRequest) =>
-  request("post", "sessions", {
-    from: "session",
-    id: sessionName,
-    ...designRequest,
-  }) as Promise<SessionState>;
+  request(
+    "post",
+    "sessions",
+    { from: "session", id: sessionName, ...designRequest },
+    WORK_TIMEOUT_MS,
+  ) as Promise<SessionState>;
 
 // Previews of references, and references from CSV files; the session stays unchanged.
 

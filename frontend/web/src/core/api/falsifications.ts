@@ -1,6 +1,6 @@
 /** Searches for the worst-case load of a law, and the scenarios saved from them. */
 import { type Job, jobFileOf, listJobs, readJob, startJob, stopJob } from "./jobs";
-import { API, request } from "./request";
+import { API, request, WORK_TIMEOUT_MS } from "./request";
 import type { components } from "./schema";
 import type { Law, SessionState } from "./types";
 
@@ -27,8 +27,6 @@ export interface SearchRequest {
   seed: number;
 }
 
-/** Slow: many laws, some of which must be compiled first. */
-const LONG_TIMEOUT_MS = 180_000;
 const readResult = (job: Job): Search => ({
   ...job,
   ...(job.result as Schemas["FalsificationResult"]),
@@ -50,7 +48,12 @@ export const scenarioFileOf = (name: string): string =>
   new URL(`${scenarioPath(name)}?format=toml`, API).href;
 /** Outcome of each law, and its errors over time. */
 export const traceLaws = (scenario: Scenario, laws: readonly Law[]) =>
-  request("post", "scenarios/runs", { scenario, laws }, LONG_TIMEOUT_MS) as Promise<Trace>;
+  request("post", "scenarios/runs", { scenario, laws }, WORK_TIMEOUT_MS) as Promise<Trace>;
 /** Open a private session with several laws in lanes. */
 export const openScenarioSession = (scenario: Scenario, laws: readonly Law[]) =>
-  request("post", "sessions", { from: "scenario", scenario, laws }) as Promise<SessionState>;
+  request(
+    "post",
+    "sessions",
+    { from: "scenario", scenario, laws },
+    WORK_TIMEOUT_MS,
+  ) as Promise<SessionState>;

@@ -1,7 +1,7 @@
 /** The ranking and the leaderboard: laws measured in the same scenarios, and their runs. */
 
 import type { Job } from "./jobs";
-import { API, request } from "./request";
+import { API, request, WORK_TIMEOUT_MS } from "./request";
 import type { components } from "./schema";
 import type { SessionState } from "./types";
 
@@ -15,7 +15,12 @@ export type Family = Schemas["FamilyOutcome"];
 export const readRanking = () => request("get", "ranking") as Promise<Results>;
 /** Open a private session of one row in a scenario, with NDOBC as comparison. */
 export const openRankingSession = (row: string, scenario: string) =>
-  request("post", "sessions", { from: "ranking", row, scenario }) as Promise<SessionState>;
+  request(
+    "post",
+    "sessions",
+    { from: "ranking", row, scenario },
+    WORK_TIMEOUT_MS,
+  ) as Promise<SessionState>;
 
 // The leaderboard: laws on the hidden trials of a season, and their worst runs.
 
@@ -24,12 +29,10 @@ export type BoardEntry = Board["entries"][number];
 type Submission = Schemas["SubmissionState"];
 
 /** The first request tests whether this machine can isolate a law. */
-const LONG_TIMEOUT_MS = 60_000;
-
 export const readBoard = () =>
-  request("get", "leaderboard", undefined, LONG_TIMEOUT_MS) as Promise<Board>;
+  request("get", "leaderboard", undefined, WORK_TIMEOUT_MS) as Promise<Board>;
 export const submitLaw = (submission: { name: string; author: string; law: string }) =>
-  request("post", "leaderboard/submissions", submission, LONG_TIMEOUT_MS) as Promise<Submission>;
+  request("post", "leaderboard/submissions", submission, WORK_TIMEOUT_MS) as Promise<Submission>;
 /** The installed laws that have no entry in this season. */
 export const measureLaws = () => request("post", "leaderboard/laws") as Promise<Job>;
 export const worstRunAddress = (key: string): string =>

@@ -46,6 +46,11 @@ const CLIENT_HEADER = "SVSA-Client";
 /** Id by which the server finds a changing request if its answer is lost. */
 const REQUEST_HEADER = "Idempotency-Key";
 export const DEFAULT_TIMEOUT_MS = 6000;
+/**
+ * For work in a process of low priority, which first has to start or to compile: minutes on a busy
+ * machine. A request that is given up and sent again would wait behind its own earlier work.
+ */
+export const WORK_TIMEOUT_MS = 300_000;
 
 export async function request(
   method: Method,

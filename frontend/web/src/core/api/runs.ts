@@ -1,5 +1,5 @@
 /** The public REST API of the recorded runs, one function per call. */
-import { API, readRefusal, request, sessionName } from "./request";
+import { API, readRefusal, request, sessionName, WORK_TIMEOUT_MS } from "./request";
 import type {
   ExportName,
   RunDetails,
@@ -13,9 +13,6 @@ import type {
   SessionState,
   VerdictRequest,
 } from "./types";
-
-const LONG_TIMEOUT_MS = 60_000;
-const EXPORT_TIMEOUT_MS = 300_000;
 
 interface RunQuery {
   search: string;
@@ -48,21 +45,21 @@ export const deleteRun = (run: string) => request("delete", pathOf(run)) as Prom
 export const restoreRun = (run: string) =>
   request("patch", pathOf(run), { deleted: false }) as Promise<RunSummary>;
 export const readRunOrigin = (run: string) =>
-  request("get", pathOf(run, "/origin"), undefined, LONG_TIMEOUT_MS) as Promise<RunOrigin>;
+  request("get", pathOf(run, "/origin"), undefined, WORK_TIMEOUT_MS) as Promise<RunOrigin>;
 export function readDifference(run: string, others: readonly string[]): Promise<RunDifference> {
   const query = new URLSearchParams(others.map((other) => ["other", other]));
   return request("get", pathOf(run, `/difference?${query}`)) as Promise<RunDifference>;
 }
 
 export const assessRun = (run: string, runQuery: VerdictRequest) =>
-  request("post", pathOf(run, "/verdict"), runQuery, LONG_TIMEOUT_MS) as Promise<RunVerdict>;
+  request("post", pathOf(run, "/verdict"), runQuery, WORK_TIMEOUT_MS) as Promise<RunVerdict>;
 
 export const branchRun = (run: string, tick: number) =>
   request(
     "post",
     "sessions",
     { from: "run", id: run, tick },
-    LONG_TIMEOUT_MS,
+    WORK_TIMEOUT_MS,
   ) as Promise<SessionState>;
 
 export function readSamples(
@@ -80,14 +77,14 @@ export const readOrigin = () =>
     "get",
     `sessions/${encodeURIComponent(sessionName)}/origin`,
     undefined,
-    LONG_TIMEOUT_MS,
+    WORK_TIMEOUT_MS,
   ) as Promise<RunOrigin>;
 
 export const exportPath = (run: string, kind: ExportName): string =>
   pathOf(run, `/export?kind=${kind}`);
 /** Size and content of an export; exports that take minutes are made on request. */
 export async function fetchFile(path: string): Promise<{ name: string; content: Blob }> {
-  const answer = await fetch(addressOf(path), { signal: AbortSignal.timeout(EXPORT_TIMEOUT_MS) });
+  const answer = await fetch(addressOf(path), { signal: AbortSignal.timeout(WORK_TIMEOUT_MS) });
   if (!answer.ok) throw await readRefusal(answer);
   const named = answer.headers.get("Content-Disposition") ?? "";
   const name = /filename="?([^";]+)"?/.exec(named)?.[1] ?? "replay.html";

@@ -1,6 +1,6 @@
 /** Studies and their jobs, one function per call. */
 import { LockedError, RefusedError, UnansweredError } from "./errors";
-import { API, client, request } from "./request";
+import { API, client, request, WORK_TIMEOUT_MS } from "./request";
 import type { components } from "./schema";
 import type { Law, Refusal } from "./types";
 
@@ -27,7 +27,6 @@ export interface StudyChanges {
   success?: Readonly<Record<string, number>>;
 }
 
-const LONG_TIMEOUT_MS = 90_000;
 const CLIENT_HEADER = "SVSA-Client";
 const pathOf = (study: string, rest = ""): string => `studies/${encodeURIComponent(study)}${rest}`;
 
@@ -36,21 +35,21 @@ export const readStudy = (study: string) => request("get", pathOf(study)) as Pro
 export const checkStudy = (changes: StudyChanges) =>
   request("post", "studies/check", changes) as Promise<StudyPlan>;
 export const startStudy = (changes: StudyChanges) =>
-  request("post", "studies", changes, LONG_TIMEOUT_MS) as Promise<Study>;
+  request("post", "studies", changes, WORK_TIMEOUT_MS) as Promise<Study>;
 /**
  * Delete permanently; a running study is cancelled first, which may take as long as its present
  * rows.
  */
 export const deleteStudy = (study: string) =>
-  request("delete", pathOf(study), undefined, LONG_TIMEOUT_MS);
+  request("delete", pathOf(study), undefined, WORK_TIMEOUT_MS);
 export const readSummary = (study: string) =>
-  request("get", pathOf(study, "/summary"), undefined, LONG_TIMEOUT_MS) as Promise<StudySummary>;
+  request("get", pathOf(study, "/summary"), undefined, WORK_TIMEOUT_MS) as Promise<StudySummary>;
 export const readSensitivity = (study: string, outcome: string) =>
   request(
     "get",
     pathOf(study, `/sensitivity?outcome=${encodeURIComponent(outcome)}`),
     undefined,
-    LONG_TIMEOUT_MS,
+    WORK_TIMEOUT_MS,
   ) as Promise<SobolIndices[]>;
 export const readRow = (study: string, row: number) =>
   request("get", pathOf(study, `/rows/${row}`)) as Promise<StudyRow>;
@@ -60,7 +59,7 @@ export const replayRow = (study: string, row: number) =>
     "post",
     pathOf(study, `/rows/${row}/replay`),
     undefined,
-    LONG_TIMEOUT_MS,
+    WORK_TIMEOUT_MS,
   ) as Promise<RowReplay>;
 export const tableOf = (study: string): string =>
   new URL(pathOf(study, "/rows?format=parquet"), API).href;
@@ -79,7 +78,7 @@ export async function readRows(study: string, columns: readonly string[]): Promi
     response = await fetch(new URL(pathOf(study, `/rows?${query}`), API), {
       cache: "no-store",
       headers: { [CLIENT_HEADER]: client },
-      signal: AbortSignal.timeout(LONG_TIMEOUT_MS),
+      signal: AbortSignal.timeout(WORK_TIMEOUT_MS),
     });
     if (response.ok) return await response.arrayBuffer();
   } catch (cause) {
