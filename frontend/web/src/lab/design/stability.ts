@@ -56,7 +56,8 @@ function createScheduler(
       isAnswered = true;
       if (startedNumber === number) applyAnswer();
     } catch {
-      if (startedNumber === number) timer = setTimeout(() => void start(), RETRY_MS);
+      clearTimeout(timer);
+      if (number > 0) timer = setTimeout(() => void start(), RETRY_MS);
     }
     isBusy = false;
     if (isAnswered && startedNumber !== number && number > 0) void start();
