@@ -190,7 +190,12 @@ def lab_without_runs(shared_lab: Lab) -> Lab:
 
 @pytest.fixture
 def still(lab: Lab) -> None:
-    """The shared session, paused at 1 s: a page at rest draws nothing."""
+    """The shared session, paused at 1 s: a page at rest draws nothing.
+
+    It has run since its restart, longer on a busy machine, and begins again.
+    """
+    for command in ("/pause", "/reset"):
+        lab.client.post(lab.session + command).raise_for_status()
     lab.jump(1)
 
 
