@@ -2,6 +2,7 @@
 
 import copy
 import json
+from itertools import pairwise
 from typing import Any
 
 from playwright.sync_api import Page, Route, WebSocketRoute
@@ -82,6 +83,7 @@ def describe_fault(
 
 
 FAULT = describe_fault("quick_stop", "Stopped by a client at 4.20 s.", lane=1)
+STOP = "quick-stop"
 STATUS = {"run": "running", "ramp": "running", "fault": "fault"}
 
 
@@ -104,8 +106,9 @@ class PatchedBench:
 
     @property
     def commands(self) -> list[str]:
-        """Return the calls except those that only read."""
-        return [call for call, _ in self.calls if call != "bench/endurance"]
+        """Return the calls except those that only read, and a quick stop that is repeated."""
+        calls = [call for call, _ in self.calls if call != "bench/endurance"]
+        return [call for before, call in pairwise(["", *calls]) if not before == call == STOP]
 
     def become(self, fault: dict[str, Any] | None = None, **change: Any) -> None:
         """Become another bench in the same page, without earlier calls."""
@@ -166,9 +169,9 @@ class PatchedBench:
             "bench/home": {"homing": HOMED},
             "start": {"status": "run"},
             "pause": {"status": "ready"},
-            "quick-stop": {"status": "fault"},
+            STOP: {"status": "fault"},
         }.get(call)
-        if call == "quick-stop":
+        if call == STOP:
             self._fault = FAULT
         self.bench |= step or {}
         if step is None:

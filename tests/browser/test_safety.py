@@ -158,7 +158,7 @@ def test_keys_in_a_text_field_are_text_and_single_keys_can_be_disabled(
         page.keyboard.press(key)
     with page.expect_response("**/quick-stop"):
         page.keyboard.press("Shift+Escape")
-    assert commands == ["quick-stop"]
+    assert set(commands) == {"quick-stop"}, "repeated until it is confirmed"
     expect(page.get_by_role("dialog", name="Keyboard")).to_have_count(0)
 
     commands.clear()
@@ -176,7 +176,7 @@ def test_keys_in_a_text_field_are_text_and_single_keys_can_be_disabled(
     page.keyboard.press("l")
     with page.expect_response("**/quick-stop"):
         page.keyboard.press("Shift+Escape")
-    assert commands == ["quick-stop"]
+    assert set(commands) == {"quick-stop"}, "repeated until it is confirmed"
 
 
 @pytest.mark.usefixtures("still")
