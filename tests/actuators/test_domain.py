@@ -46,7 +46,7 @@ NAMED_VALUES = {
 
 
 @pytest.mark.parametrize("code", FAULTS)
-def test_a_run_that_leaves_the_domain_ends_in_the_named_fault(code):
+def test_run_that_leaves_the_domain_ends_in_the_named_fault(code):
     """The samples end before the fault, which reports place and reason in finite numbers."""
     result = svsa.simulate("4a", "ndobc", duration_s=2.0, **FAULTS[code])
     fault = result.fault

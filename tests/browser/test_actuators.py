@@ -54,9 +54,7 @@ def test_published_figures_fit_into_the_width_of_a_phone(page: Page, still_lab: 
     assert page.evaluate("document.documentElement.scrollWidth") == 390
 
 
-def test_the_tutorial_on_an_own_actuator_ends_with_ndobc_on_the_page(
-    page: Page, tmp_path: Path
-) -> None:
+def test_own_actuator_tutorial_ends_with_ndobc_on_the_page(page: Page, tmp_path: Path) -> None:
     """The steps of the last section, with the package of the tutorial installed."""
     places = os.pathsep.join([str(install_own_actuator(tmp_path)), str(ROOT)])
     with run_lab(within=("env", f"PYTHONPATH={places}")) as lab:

@@ -33,7 +33,7 @@ def expect_no_scrolling(page: Page) -> None:
     page.wait_for_function(f"() => ({COUNT_SCROLLING})() === 0")
 
 
-def test_the_studies_open_on_a_finished_example(page: Page, fresh_lab: Lab) -> None:
+def test_studies_page_first_shows_a_finished_example(page: Page, fresh_lab: Lab) -> None:
     open_wide(page, fresh_lab, "studies")
     head = page.get_by_role("heading", name=re.compile("^Example A step of 0 to 10"))
     expect(head).to_be_visible()
@@ -44,7 +44,7 @@ def test_the_studies_open_on_a_finished_example(page: Page, fresh_lab: Lab) -> N
     expect_no_violation(page, DESKTOP, PHONE)
 
 
-def test_the_falsifier_opens_on_a_finished_example(page: Page, fresh_lab: Lab) -> None:
+def test_falsifier_page_first_shows_a_finished_example(page: Page, fresh_lab: Lab) -> None:
     open_wide(page, fresh_lab, "falsifier")
     expect(page.get_by_role("heading", name=re.compile("^Example impulse-ndobc"))).to_be_visible()
     laws = page.get_by_role("region", name="Laws under this load")
@@ -53,7 +53,7 @@ def test_the_falsifier_opens_on_a_finished_example(page: Page, fresh_lab: Lab) -
     expect_no_violation(page, DESKTOP, PHONE)
 
 
-def test_the_leaderboard_shows_the_published_ranking_and_begins_no_season(
+def test_leaderboard_shows_the_published_ranking_and_starts_no_season(
     page: Page, fresh_lab: Lab
 ) -> None:
     open_wide(page, fresh_lab, "leaderboard")
@@ -64,7 +64,7 @@ def test_the_leaderboard_shows_the_published_ranking_and_begins_no_season(
     assert fresh_lab.client.get("/api/v1/leaderboard").json()["began"] is None
 
 
-def test_the_ranking_names_its_columns_in_words(page: Page, fresh_lab: Lab) -> None:
+def test_ranking_table_has_columns_named_in_words(page: Page, fresh_lab: Lab) -> None:
     open_wide(page, fresh_lab, "ranking")
     heads = page.get_by_role("table").get_by_role("columnheader")
     expect(heads.nth(4)).to_have_text("p-value against NDOBC")

@@ -17,7 +17,12 @@ PAGES = ("index", "studies", "scripting", "tutorials/index", "reference/equation
 
 
 @pytest.mark.parametrize("name", PAGES)
-def test_a_page_has_no_violation(page: Page, still_lab: Lab, site: Path, name: str) -> None:  # noqa: F811
+def test_guide_page_has_no_accessibility_violation(
+    page: Page,
+    still_lab: Lab,
+    site: Path,  # noqa: F811
+    name: str,
+) -> None:
     page.goto(f"{still_lab.url}/docs/guide/{name}.html")
     expect(page.get_by_role("heading", level=1)).to_be_visible()
     page.evaluate(AXE.read_text(encoding="utf-8"))

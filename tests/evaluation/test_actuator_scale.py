@@ -130,7 +130,7 @@ def test_rates_of_a_law_are_scaled_by_the_default_gains_of_the_actuator():
             assert value < other if is_less else value == other, (law, axis.label)
 
 
-def test_the_laws_of_the_paper_hold_with_the_effects_of_a_bench_on_qbmove():
+def test_declared_laws_have_no_fault_on_qbmove_with_the_effects_of_a_bench():
     """With the gains of the SVSA, NDOBC ended in a fault in each of these scenarios."""
     entry = build_entry(DECLARED, "qbmove")
     for fixed in build_fixed_scenarios()[1:3]:

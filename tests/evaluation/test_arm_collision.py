@@ -23,13 +23,13 @@ def test_peak_force_work_and_holding_force_rise_with_the_stiffness(direction):
         assert max(values) < 1.03 * min(values), (name, values)
 
 
-def test_an_elastic_wall_takes_the_energy_of_its_deepest_point():
+def test_elastic_wall_stores_the_energy_of_the_deepest_penetration():
     one = measure_collision("pd", 40.0, 1, damping_ns_per_m=0.0)
     assert one.peak_n == pytest.approx(2000.0 * one.depth_m.max(), rel=1e-9)
     assert one.work_j == pytest.approx(0.5 * 2000.0 * one.depth_m.max() ** 2, rel=1e-3)
 
 
-def test_a_run_that_ends_before_the_wall_has_no_force():
+def test_run_that_ends_before_the_wall_has_no_force():
     one = measure_collision("ndobc", 10.0, 1)
     assert one.fault is not None
     assert np.isnan(one.peak_n) and np.isnan(one.work_j) and not len(one.force_n)
@@ -53,7 +53,7 @@ def test_collisions_are_drawn_by_direction(tmp_path):
     figure.savefig(tmp_path / "collision.png")
 
 
-def test_the_command_prints_the_collisions_as_json():
+def test_command_prints_the_collisions_as_json():
     answer = CliRunner().invoke(app, ["arm-collision", "--json"])
     assert answer.exit_code == 0, answer.output
     found = json.loads(answer.stdout)
@@ -62,7 +62,7 @@ def test_the_command_prints_the_collisions_as_json():
     assert last["peak_n"] == pytest.approx(34.1, abs=0.05)
 
 
-def test_an_unknown_law_is_named():
+def test_unknown_law_is_named_in_the_error():
     answer = CliRunner().invoke(app, ["arm-collision", "flx"])
     assert answer.exit_code == 2
     assert "flx" in answer.output

@@ -19,7 +19,7 @@ def measure(law, settings):
     return measure_arm_map(law, settings, law, (0.1, 0.3), (80.0,)).errors_deg
 
 
-def test_ndobc_does_not_carry_what_fl_does_and_both_do_with_the_payload_known():
+def test_ndobc_faults_under_a_payload_that_fl_carries_and_both_carry_it_if_known():
     """0.1 and 0.3 kg at σ = 80."""
     fl, ndobc = measure("fl", {}), measure("ndobc", {})
     assert ndobc[0, 0] < 0.2 * fl[0, 0]
@@ -28,7 +28,7 @@ def test_ndobc_does_not_carry_what_fl_does_and_both_do_with_the_payload_known():
     assert np.all(measure("ndobc", ADAPTIVE) < 0.1)
 
 
-def test_a_map_is_drawn_with_its_faults(tmp_path):
+def test_map_is_drawn_with_its_faults(tmp_path):
     one = ArmMap("FL", np.array([[0.1, 2.0, math.inf]]), (0.0, 0.1, 0.3), (80.0,))
     figure = draw_arm_maps([one] * 4)
     assert [axis.get_title() for axis in figure.axes[:4]] == ["FL"] * 4
@@ -40,7 +40,7 @@ def test_a_map_is_drawn_with_its_faults(tmp_path):
 
 
 @pytest.mark.exhaustive
-def test_the_command_prints_the_map_as_json():
+def test_command_prints_the_map_as_json():
     answer = CliRunner().invoke(app, ["arm-map", "fl", "--json"])
     assert answer.exit_code == 0, answer.output
     found = json.loads(answer.stdout)
@@ -51,7 +51,7 @@ def test_the_command_prints_the_map_as_json():
     assert row[column] == pytest.approx(5.06, abs=0.01)
 
 
-def test_an_unknown_law_is_named():
+def test_unknown_law_is_named_in_the_error():
     answer = CliRunner().invoke(app, ["arm-map", "flx"])
     assert answer.exit_code == 2
     assert "flx" in answer.output

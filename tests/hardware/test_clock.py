@@ -62,7 +62,7 @@ def test_near_deadline_is_never_early() -> None:
         assert clock.now() >= deadline
 
 
-def test_frames_stamped_with_the_time_of_day() -> None:
+def test_time_of_day_stamps_are_converted_to_monotonic_time() -> None:
     clock = WallClock()
     clock.bind(None)  # pyright: ignore[reportArgumentType]
     now, of_day = time.monotonic(), time.time()
@@ -71,7 +71,7 @@ def test_frames_stamped_with_the_time_of_day() -> None:
     assert clock.convert(of_day - 0.001, now) - one == pytest.approx(0.002, abs=0.01)
 
 
-def test_frames_stamped_by_another_clock() -> None:
+def test_frames_of_another_clock_are_converted_by_the_least_delay() -> None:
     """Origin 7 s after start-up: the frame with the least delay gives the offset."""
     clock = WallClock()
     clock.bind(None)  # pyright: ignore[reportArgumentType]

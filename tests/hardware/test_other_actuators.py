@@ -98,7 +98,7 @@ def test_ndobc_holds_the_load_on_the_emulated_bench(name: str, tmp_path: Path) -
     assert np.max(wrong / read_settled(compensated, "stiffness_reference_nm_per_rad")) < 0.05
 
 
-def test_the_same_run_over_sockets_gives_the_same_samples_to_the_bit(tmp_path: Path) -> None:
+def test_run_over_sockets_gives_the_same_samples_bit_for_bit(tmp_path: Path) -> None:
     """`svsa emulator --actuator qbmove` as a process of its own, over python-can."""
     over_wire, here = (
         run(tmp_path, "qbmove", "ndobc", start, 600) for start in (start_process, start_in_process)
@@ -106,7 +106,7 @@ def test_the_same_run_over_sockets_gives_the_same_samples_to_the_bit(tmp_path: P
     assert np.array_equal(over_wire, here, equal_nan=True)
 
 
-def test_the_written_bench_is_calibrated_and_begins_with_the_actuator(tmp_path: Path) -> None:
+def test_written_bench_file_is_calibrated_and_selects_the_actuator(tmp_path: Path) -> None:
     for name in OTHERS:
         path = tmp_path / f"{name}.toml"
         write_bench(path, build_emulator_parameters(name), 29536, 29537, lockstep=False)
@@ -119,7 +119,7 @@ def test_the_written_bench_is_calibrated_and_begins_with_the_actuator(tmp_path: 
         assert first.gains == design.gains
 
 
-def test_the_limits_of_an_antagonistic_bench_are_those_of_each_real_motor(tmp_path: Path) -> None:
+def test_antagonistic_bench_limits_each_real_motor(tmp_path: Path) -> None:
     """6 N·m a motor: u1 = 12 and u2 = 0, or u1 = 6 and u2 = 6, and never both."""
     path = tmp_path / "bench.toml"
     bench = write_bench(path, build_emulator_parameters("qbmove"), 1, 2, lockstep=True)
@@ -136,7 +136,7 @@ def test_the_limits_of_an_antagonistic_bench_are_those_of_each_real_motor(tmp_pa
     assert (alarm.code, next(iter(alarm.values))) == ("position_limit", "motor1_position_rad")
 
 
-def test_an_encoder_of_a_pair_that_stands_still_is_found_by_the_torque_of_its_motor(
+def test_frozen_encoder_of_an_antagonistic_motor_is_detected(
     tmp_path: Path,
 ) -> None:
     """ŵ4 and ŵ6 that grow alike are a torque on motor a alone."""
@@ -159,7 +159,7 @@ def test_motors_and_coordinates_of_a_pair_are_the_inverse_of_each_other() -> Non
     assert motors.u1 * da + motors.u2 * db == pytest.approx(u.u1 * 2.0 + u.u2 * 5.0)
 
 
-def test_what_a_bench_cannot_drive_is_rejected_with_the_reason(tmp_path: Path) -> None:
+def test_actuator_that_a_bench_cannot_drive_is_rejected_with_reason(tmp_path: Path) -> None:
     path = tmp_path / "bench.toml"
     bench = write_bench(path, build_emulator_parameters("qbmove"), 1, 2, lockstep=True)
 

@@ -94,7 +94,7 @@ def test_exponentials_and_logarithms_are_within_their_bounds(
     assert find_worst(function, exact, places) < bound
 
 
-def test_infinite_and_nan_arguments() -> None:
+def test_infinite_and_nan_arguments_give_the_limit_or_nan() -> None:
     for x in (math.nan, math.inf, -math.inf):
         assert all(math.isnan(value) for value in sin_cos(x))
     for function in (exp, expm1, acos, tanh):

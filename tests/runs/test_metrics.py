@@ -22,7 +22,7 @@ def build_samples(ticks, **channels):
     return samples
 
 
-def test_rms_and_peak_of_a_sine():
+def test_sine_has_its_known_rms_and_peak():
     """A sine of amplitude 3 over whole periods: rms 3/√2, peak 3."""
     t = np.arange(2000) * T
     wave = 3.0 * np.sin(2.0 * np.pi * 5.0 * t)
@@ -53,7 +53,7 @@ def test_each_metric_reads_its_own_channel_and_ignores_the_sign():
     assert metrics.effort_n2m2_s == pytest.approx((9.0 + 16.0) * 0.1)
 
 
-def test_integral_and_effort_of_sines():
+def test_sines_have_their_known_integral_and_effort():
     """∫|3 sin| over whole periods is 6/π per second, ∫(2 sin)² + (2 cos)² is 4 per second."""
     angle = 2.0 * np.pi * 5.0 * np.arange(2000) * T
     samples = build_samples(
@@ -67,7 +67,7 @@ def test_integral_and_effort_of_sines():
     assert metrics.effort_n2m2_s == pytest.approx(2.0 * 4.0, rel=1e-12)
 
 
-def test_recovery_time_of_a_decaying_error():
+def test_decaying_error_has_its_known_recovery_time():
     """e^(−10 t) decreases to 2 % at ln(50)/10 = 0.3912 s: the first sample inside is at 0.392."""
     error = np.exp(-10.0 * np.arange(1000) * T)
     metrics = compute_metrics(build_samples(1000, position_error_rad=error), T)
@@ -185,7 +185,7 @@ def test_steady_state_error_is_that_of_the_end_for_any_segments():
     assert compute_metrics(samples[:1000], T).steady_state_position_error_rad == pytest.approx(4.0)
 
 
-def test_total_variation_work_and_rms_of_known_torques():
+def test_triangle_torques_have_their_known_variation_work_and_rms():
     """A triangle of 1 N·m with a period of 0.2 s varies by 10 N·m/s; its rms is 1/√3."""
     t = np.arange(2001) * T
     triangle = np.abs((t / 0.2 + 0.5) % 1.0 - 0.5) * 2.0

@@ -32,7 +32,7 @@ def build_step(output, before=100, level=2.0, start=1.0):
 
 @pytest.mark.parametrize("pieces", [1, 7, 1600])
 @pytest.mark.parametrize(("start", "level"), [(1.0, 2.0), (0.3, -0.5)])
-def test_first_order_response(start, level, pieces):
+def test_first_order_response_matches_its_formulas(start, level, pieces):
     """1 − e^(−t/τ): rise time τ ln 9 = 2.197 τ, settling time τ ln 50 = 3.912 τ, no overshoot."""
     tau, t = 0.1, np.arange(1500) * T
     response = respond(*build_step(1.0 - np.exp(-t / tau), level=level, start=start), pieces)
@@ -41,7 +41,7 @@ def test_first_order_response(start, level, pieces):
     assert response.overshoot_share == 0.0
 
 
-def test_second_order_response():
+def test_second_order_response_matches_its_formulas():
     """Overshoot exp(−π ζ/√(1 − ζ²)) = 16.3 % at ζ = 0.5; rise time 1.639/ω (Ogata, 10-90 %)."""
     zeta, omega, t = 0.5, 20.0, np.arange(2000) * T
     damped = omega * math.sqrt(1.0 - zeta**2)

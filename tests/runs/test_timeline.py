@@ -103,7 +103,7 @@ def test_parallel_laws_have_unique_colors_and_the_first_two_keep_theirs():
         assert line_styles[1] == 1 or comparisons[0] != laws[1]
 
 
-def test_law_that_follows_another_of_its_color_takes_a_free_one():
+def test_law_after_a_law_of_the_same_color_gets_an_unused_color():
     laws = list_law_names()
     timeline = Timeline(build_configuration(law=laws[0]))
     timeline.take(build_command(10, "law", laws[LINE_COLORS]))

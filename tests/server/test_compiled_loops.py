@@ -10,7 +10,7 @@ from svsa_server.compiled_loops import compile_for
 from tests.lab import run_lab
 
 
-def test_an_actuator_is_compiled_by_a_process_while_others_go_on(monkeypatch, tmp_path):
+def test_actuator_is_compiled_in_a_process_while_other_requests_are_served(monkeypatch, tmp_path):
     """Two requests start it once; the event loop is free meanwhile."""
     started = tmp_path / "started"
     program = (

@@ -53,7 +53,7 @@ def test_page_loads_nothing_from_elsewhere(shared_lab: Lab, address: str) -> Non
         ("/studies", "/?studies=all"),
     ],
 )
-def test_typed_address_leads_to_its_place(shared_lab: Lab, address: str, place: str) -> None:
+def test_typed_address_is_redirected_to_its_page(shared_lab: Lab, address: str, place: str) -> None:
     answer = shared_lab.client.get(address, follow_redirects=True)
     assert str(answer.url) == shared_lab.url + place
     assert "<title>SVSA Lab" in answer.text

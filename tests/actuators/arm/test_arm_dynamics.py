@@ -53,7 +53,7 @@ LAGRANGE = derive_torques()
 
 
 @given(angles, angles, speeds, speeds, speeds, speeds)
-def test_the_equations_are_those_of_the_energies(q1, q2, dq1, dq2, ddq1, ddq2):
+def test_equations_of_motion_match_lagrange_of_the_energies(q1, q2, dq1, dq2, ddq1, ddq2):
     arm, t, dq = ARM.build(), turn(Joints(q1, q2)), Joints(dq1, dq2)
     M, bias = compute_mass_matrix(arm, t), compute_bias(arm, t, dq)
     torque = (
@@ -66,7 +66,7 @@ def test_the_equations_are_those_of_the_energies(q1, q2, dq1, dq2, ddq1, ddq2):
 
 
 @given(angles, angles, speeds, speeds)
-def test_a_force_at_the_tip_has_the_power_of_its_joint_torques(q1, q2, dq1, dq2):
+def test_power_of_a_tip_force_equals_that_of_its_joint_torques(q1, q2, dq1, dq2):
     """f · v = τ · q̇ for the Jacobian, whose velocity is the derivative of the position."""
     arm, t, dq, force = ARM.build(), turn(Joints(q1, q2)), Joints(dq1, dq2), Point(3.0, -2.0)
     velocity, torque = compute_tip_velocity(arm, t, dq), compute_tip_torque(arm, t, force)
@@ -91,7 +91,7 @@ def test_links_whose_mass_matrix_is_singular_are_rejected():
         assert M.m11 * M.m22 - M.m12**2 > 1e-5
 
 
-def test_an_arm_at_rest_hanging_down_has_no_energy_and_needs_no_torque():
+def test_hanging_arm_at_rest_has_zero_energy_and_zero_bias():
     arm, t, still = RODS.build(), turn(Joints(0.0, 0.0)), Joints(0.0, 0.0)
     assert compute_arm_energy(arm, t, still) == 0.0
     assert compute_bias(arm, t, still) == (0.0, 0.0)

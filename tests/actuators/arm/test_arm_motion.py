@@ -25,7 +25,7 @@ def compute_tip(q1, q2):
 
 
 @given(st.floats(-3.0, 3.0), st.floats(0.1, 3.0), st.booleans(), st.tuples(*[rates] * 8))
-def test_the_joints_of_a_tip_are_those_that_put_it_there(q1, bend, is_positive, given_rates):
+def test_inverse_kinematics_inverts_forward_kinematics(q1, bend, is_positive, given_rates):
     """Value and four derivatives, for both elbows, wherever the tip is not around the top."""
     elbow = 1.0 if is_positive else -1.0
     first, second = Motion(q1, *given_rates[:4]), Motion(elbow * bend, *given_rates[4:])
@@ -40,7 +40,7 @@ def test_the_joints_of_a_tip_are_those_that_put_it_there(q1, bend, is_positive, 
     assert np.array(found2) == pytest.approx(np.array(second), rel=1e-5, abs=1e-6)
 
 
-def test_the_sine_of_an_angle_has_the_derivatives_of_its_differences():
+def test_sine_and_cosine_match_their_numerical_derivatives():
     """An angle of degree 4 in time: differences of sin q over a step of 10 ms."""
     powers, h = (0.7, -1.1, 0.4, 0.3, -0.2), 0.01
     angle = Motion(*(c * math.factorial(k) for k, c in enumerate(powers)))
@@ -52,7 +52,7 @@ def test_the_sine_of_an_angle_has_the_derivatives_of_its_differences():
         assert np.array(of_angle) == pytest.approx(np.array(wanted), rel=1e-6, abs=1e-6)
 
 
-def test_the_torques_along_a_motion_have_the_derivatives_of_their_differences():
+def test_feedforward_torques_match_their_numerical_derivatives():
     arm, h = MACCEPA_ARM.build(), 1e-3
 
     def compute(t):

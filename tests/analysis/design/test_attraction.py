@@ -36,7 +36,7 @@ def build(law: str = "ndobc", pole: float = 60.0, **changes: object) -> Configur
         ("fl", 60.0, 60.0, 0.94),
     ],
 )
-def test_share_of_starts_that_reach_rest(law, pole, sigma, share):
+def test_share_of_starts_that_reach_rest_is_as_documented(law, pole, sigma, share):
     starts = build_map(COARSE)
     found = find_start_outcomes(build(law, pole), sigma, starts, order_cells(COARSE))
     assert compute_share([outcome for _, outcome in found]) == pytest.approx(share, abs=0.04)

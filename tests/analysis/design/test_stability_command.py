@@ -15,7 +15,7 @@ def run(*options: str) -> str:
     return result.stdout
 
 
-def test_json_output():
+def test_command_prints_json():
     reported = json.loads(run("--json", "--starts", "3"))
     at_15, at_60 = reported["stability"]
     assert reported["law"] == "ndobc"
@@ -29,7 +29,7 @@ def test_json_output():
 
 @pytest.mark.exhaustive
 @pytest.mark.long
-def test_tables_and_picture(tmp_path):
+def test_command_writes_the_tables_and_the_picture(tmp_path):
     picture = tmp_path / "stability.png"
     text = run("--stiffness", "15", "--starts", "0", "--plot", str(picture))
     assert "-20.07" in text
@@ -38,7 +38,7 @@ def test_tables_and_picture(tmp_path):
     assert picture.stat().st_size > 10_000
 
 
-def test_margins_of_chosen_laws():
+def test_command_prints_the_margins_of_the_selected_laws():
     result = CliRunner().invoke(
         app, ["margins", "fl", "eso_saturated", "--stiffness", "15", "--json"]
     )

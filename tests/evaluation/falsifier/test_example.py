@@ -22,7 +22,7 @@ def empty_data(monkeypatch, tmp_path):
     monkeypatch.setenv("SVSA_DATA", str(tmp_path))
 
 
-def test_its_law_ends_as_it_says_and_the_other_one_holds():
+def test_example_scenario_ends_ndobc_in_the_stated_fault_and_fl_has_none():
     ((name, example),) = list_scenarios(EXAMPLES).items()
     assert (name, example) == (NAME, open_scenario(NAME))
     assert example.found is not None
@@ -33,7 +33,7 @@ def test_its_law_ends_as_it_says_and_the_other_one_holds():
 
 
 @pytest.mark.exhaustive
-def test_the_search_finds_a_fault_of_the_same_kind():
+def test_search_finds_the_fault_of_the_example():
     found = falsify(read_adversary("impulse"), runs=20_000, seed=0).scenario
     example = open_scenario(NAME)
     assert found.found is not None and example.found is not None
@@ -41,7 +41,7 @@ def test_the_search_finds_a_fault_of_the_same_kind():
     assert found.base == example.base
 
 
-def test_a_saved_one_of_its_name_is_opened_in_its_place_until_it_is_deleted():
+def test_saved_scenario_replaces_the_example_of_the_same_name_until_it_is_deleted():
     assert is_example(NAME)
     assert not forget_scenario(NAME)
     own = open_scenario(NAME).model_copy(update={"title": "Mine"})

@@ -34,7 +34,7 @@ QBMOVE = Adversary(
 )
 
 
-def test_the_worst_load_of_qbmove_is_found_and_its_scenario_is_of_qbmove():
+def test_search_on_qbmove_returns_a_pulse_and_a_scenario_of_qbmove():
     """A pulse of more than half of the greatest torque; the error of NDOBC under it is smaller."""
     found = falsify(QBMOVE, runs=48)
     assert found.run is not None
@@ -50,7 +50,7 @@ def test_the_worst_load_of_qbmove_is_found_and_its_scenario_is_of_qbmove():
     assert compensated.metrics[peak] < plain.metrics[peak]
 
 
-def test_spring_without_the_stiffness_range_of_its_limits_is_refused_and_the_search_goes_on():
+def test_sample_without_the_required_stiffness_range_is_rejected_and_the_search_continues():
     """With a tenth less of its rate, qbmove reaches 10 of the 15 N·m/rad of its limits."""
     rate = {"path": "actuator.rate_per_rad", "kind": "uniform", "relative": True}
     given = QBMOVE.changed(vary=[rate | {"low": 0.9, "high": 1.1}])

@@ -27,7 +27,7 @@ def expect_same(one: pa.Table, other: pa.Table) -> None:
         np.testing.assert_array_equal(one[name].to_numpy(), other[name].to_numpy(), name)
 
 
-def test_it_is_the_built_in_study_and_its_first_rows_are_computed_to_the_bit():
+def test_example_is_the_built_in_study_and_its_first_rows_are_reproduced_bit_for_bit():
     example = open_study(EXAMPLE)
     assert example.study == read_study("load", runs=256)[1]
     assert find_missing(example) == []
@@ -42,7 +42,7 @@ def test_every_row_is_computed_to_the_bit():
     expect_same(read_rows(example), run_trials(example.study, 0, example.study.runs))
 
 
-def test_it_is_not_deleted(monkeypatch, tmp_path):
+def test_example_study_cannot_be_deleted(monkeypatch, tmp_path):
     monkeypatch.setenv("SVSA_DATA", str(tmp_path))
     with pytest.raises(StudyError, match="part of the package"):
         delete_study(open_study(EXAMPLE))
@@ -51,7 +51,7 @@ def test_it_is_not_deleted(monkeypatch, tmp_path):
     assert list_studies() == []
 
 
-def test_an_own_study_of_its_name_is_opened_in_its_place(monkeypatch, tmp_path):
+def test_user_study_replaces_the_example_of_the_same_name(monkeypatch, tmp_path):
     monkeypatch.setenv("SVSA_DATA", str(tmp_path))
     own = keep_study(EXAMPLE, read_study("load", runs=2)[1], owner="ada")
     assert run_study(own, workers=0)

@@ -48,7 +48,7 @@ def test_valid_file_agrees_within_a_fifth(turns):
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: f"{case[0]}.{case[1]}={case[2]}")
-def test_wrong_value_is_found_with_the_right_one(turns, case):
+def test_wrong_value_is_reported_with_the_correct_value(turns, case):
     section, field, wrong, title = case
     present = getattr(BENCH, section)
     bench = BENCH.changed(**{section: present.changed(**{field: wrong})})

@@ -29,7 +29,7 @@ MOTOR = MotorSettings(
 )
 
 
-def test_current_of_a_torque() -> None:
+def test_torque_is_converted_to_current() -> None:
     """I = 1000 τ / (N η K_t): 1.782 N·m at 50 : 1, 90 %, 39.6 mN·m/A is one ampere."""
     scale = build_motor_scale(MOTOR)
     assert compute_current_ma(1.782, scale) == 1000
@@ -55,7 +55,7 @@ def test_rounding_error_is_at_most_half_a_milliampere(torque: float) -> None:
     assert abs(sent - torque) <= 0.5000001 * scale.torque_per_ma
 
 
-def test_deflection_scale() -> None:
+def test_deflection_count_is_a_share_of_a_turn_with_its_sign() -> None:
     settings = DeflectionSettings(source="can", counts_per_rev=8000, sign=-1)
     assert build_deflection_scale(settings) * 8000 == pytest.approx(-2.0 * math.pi)
 

@@ -56,7 +56,7 @@ def open_bench(folder: Path) -> Iterator[BenchSession]:
 
 
 @pytest.mark.parametrize("status", [BenchStatus.READY, BenchStatus.RUN])
-def test_first_use_of_each_law_makes_no_tick_late(status: BenchStatus, tmp_path: Path) -> None:
+def test_first_use_of_a_law_delays_no_tick(status: BenchStatus, tmp_path: Path) -> None:
     """Each for some ms: with the late feedback of a busy machine some would oscillate."""
     with open_bench(tmp_path) as session:
         if status is BenchStatus.RUN:

@@ -63,7 +63,7 @@ def is_refused(status: BenchStatus, call: str, *arguments: Any) -> bool:
     return False
 
 
-def test_permitted_calls_of_each_state() -> None:
+def test_each_state_accepts_its_permitted_calls_only() -> None:
     takes = {
         call: {status for status in ALL if not is_refused(status, call, *arguments)}
         for call, arguments in {

@@ -30,14 +30,14 @@ def test_fl_with_the_estimate_has_the_errors_of_the_prototype(pole, sigma, known
     assert min(measure_deg(plain)) > 20 * max(known), "the load must matter"
 
 
-def test_ndobc_carries_with_the_estimate_what_it_does_not_carry_without():
+def test_ndobc_carries_a_heavy_payload_only_with_the_payload_estimate():
     options = {"law": "ndobc", "feedforward": True, "tip_loads": [LOAD], **HEAVY}
     plain = svsa.simulate_arm(**options)
     assert plain.fault is not None or min(measure_deg(plain)) > 5.0
     assert max(measure_deg(svsa.simulate_arm(adaptation=True, **options))) < 0.1
 
 
-def test_the_estimate_finds_the_mass_and_keeps_to_its_rate():
+def test_payload_estimate_converges_to_the_mass_within_its_rate_limit():
     options = {"law": "fl", "feedforward": True, "tip_loads": [LOAD], **HEAVY}
     payload = svsa.simulate_arm(adaptation=True, **options).payload_kg
     assert abs(payload[:5000]).max() < 1e-3
@@ -65,11 +65,11 @@ def test_links_that_are_thought_too_light_cost_accuracy():
     assert 0.1 < max(measure_deg(result)) < 0.5
 
 
-def test_without_adaptation_there_is_no_estimate():
+def test_payload_estimate_is_zero_without_adaptation():
     assert np.all(svsa.simulate_arm(duration_s=0.1).payload_kg == 0.0)
 
 
-def test_the_estimate_is_part_of_a_replay():
+def test_run_with_payload_estimate_is_resimulated_bit_for_bit():
     """The models of the laws follow from the estimate alone."""
     options = {"adaptation": True, "feedforward": True, "tip_loads": [LOAD.changed(start_s=0.2)]}
     result = svsa.simulate_arm(**options, duration_s=0.6)

@@ -21,7 +21,7 @@ def simulate():
     return svsa.simulate_arm(**OPTIONS, tip_loads=loads, joint1=joint1, joint2={"loads": push})
 
 
-def test_a_record_is_opened_as_it_was_and_is_simulated_again_bit_for_bit(tmp_path):
+def test_record_is_read_unchanged_and_resimulated_bit_for_bit(tmp_path):
     result = simulate()
     folder = svsa.save_run(result, tmp_path / "arm", name="Push")
     opened = svsa.open_arm_run(folder)
@@ -41,7 +41,7 @@ def test_another_setting_is_another_run(tmp_path):
     assert again.first_difference is not None and again.first_difference[0] <= 2
 
 
-def test_a_fault_is_recorded(tmp_path):
+def test_fault_is_recorded(tmp_path):
     push = svsa.ConstantLoad(torque_nm=(20.0, 0.0, 0.0), start_s=0.1)
     result = svsa.simulate_arm(**OPTIONS, joint2={"loads": push})
     opened = svsa.open_arm_run(svsa.save_run(result, tmp_path / "arm"))
@@ -49,7 +49,7 @@ def test_a_fault_is_recorded(tmp_path):
     assert svsa.resimulate(tmp_path / "arm").identical
 
 
-def test_a_run_of_a_joint_and_one_of_an_arm_are_not_mistaken(tmp_path):
+def test_run_of_the_other_kind_is_rejected_with_the_function_to_call(tmp_path):
     arm = svsa.save_run(simulate(), tmp_path / "arm")
     joint = svsa.save_run(svsa.simulate("4a", duration_s=0.1), tmp_path / "joint")
     with pytest.raises(RecordError, match=r"svsa\.open_arm_run"):

@@ -32,7 +32,7 @@ def measure_deg(result, *windows):
 
 
 @pytest.mark.parametrize(("law", "feedforward"), KNOWN)
-def test_the_errors_are_those_of_the_prototype(law, feedforward):
+def test_tracking_errors_match_the_prototype(law, feedforward):
     """All given digits: three, or those that a thousandth of a degree has."""
     result = svsa.simulate_arm(law=law, feedforward=feedforward, tip_loads=[LOAD])
     known = KNOWN[law, feedforward]
@@ -40,7 +40,7 @@ def test_the_errors_are_those_of_the_prototype(law, feedforward):
         assert measured == pytest.approx(value, abs=0.0051 if value >= 0.3 else 0.00051)
 
 
-def test_an_observer_that_knows_the_feedforward_is_better_before_and_after_the_load():
+def test_feedforward_in_the_observer_lowers_the_error_before_and_after_the_load():
     """The prototype's observer did not: 0.041 and 0.048 before, 0.072 and 0.133 after."""
     result = svsa.simulate_arm(law="ndobc", feedforward=True, tip_loads=[LOAD])
     before, after = measure_deg(result, BEFORE_S), measure_deg(result, AFTER_S)
@@ -49,7 +49,7 @@ def test_an_observer_that_knows_the_feedforward_is_better_before_and_after_the_l
     assert after[0] < 0.05 and after[1] < 0.1
 
 
-def test_with_exact_models_the_feedforward_leaves_no_error():
+def test_feedforward_with_exact_models_leaves_no_error():
     """Nominal motors, dampings and arm as they are: what is left is the sampling."""
     plant = build_arm_experiment("rods", {}, {}).actuator
     names = [name for name in type(plant).model_fields if not name.startswith("link_inertia")]
@@ -127,7 +127,7 @@ def test_joints_list_their_changes_of_the_law():
     assert found == [[("ndobc", 0)], [("ndobc", 0), ("fl", 20)], [("pd", 0)], [("pd", 0)]]
 
 
-def test_a_run_in_pieces_has_the_bits_of_one_call():
+def test_run_in_several_calls_equals_one_call_bit_for_bit():
     """With every effect on, two laws, and loads on joints and tip that begin between the pieces."""
     c = build_arm_experiment(
         "rods",
@@ -144,7 +144,7 @@ def test_a_run_in_pieces_has_the_bits_of_one_call():
     assert whole.tobytes() == pieces.tobytes()
 
 
-def test_the_tip_is_where_the_links_end_and_its_stiffness_is_that_of_the_joints():
+def test_tip_position_and_stiffness_follow_from_the_joints():
     """A small force at the tip of the arm at rest moves it by K⁻¹ f, with FL's stiff positions."""
     still = {"joint1": {"position": 0.4}, "joint2": {"position": 0.9}, "duration_s": 0.1}
     result = svsa.simulate_arm("rods", "fl", **still)
@@ -186,7 +186,7 @@ def place(q1, q2):
         ({"tip": ELLIPSE, "joint2": {"position": 0.3}}, "arm.tip is 'ellipse'.*replaces"),
     ],
 )
-def test_what_an_arm_cannot_have_is_named(given, message):
+def test_invalid_setting_of_an_arm_is_named_in_the_error(given, message):
     with pytest.raises(svsa.ParameterError, match=message):
         svsa.simulate_arm(**given, duration_s=0.01)
 
@@ -210,7 +210,7 @@ def test_options_of_a_configuration_stay_unless_they_are_given():
     assert [one.adaptation is None for one in setups] == [False, False, True]
 
 
-def test_a_fault_names_its_joint_and_ends_both():
+def test_fault_names_its_joint_and_ends_both_joints():
     result = svsa.simulate_arm(
         joint2={"loads": svsa.ConstantLoad(torque_nm=(20.0, 0.0, 0.0), start_s=0.5)}
     )
@@ -228,7 +228,7 @@ def test_other_actuators_move_the_arm(actuator):
     assert max(measure_deg(mixed, BEFORE_S)) < 0.3
 
 
-def test_the_arm_with_maccepa_follows_its_references():
+def test_arm_with_maccepa_follows_its_references():
     # Faster than the actuator's defaults, which suit a single joint with sensor noise.
     gains = svsa.Gains.from_poles([-60] * 4, [-40] * 2)
     result = svsa.simulate_arm("maccepa", "ndobc", gains=gains, observer=60.0, duration_s=8.0)

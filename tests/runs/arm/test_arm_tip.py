@@ -18,7 +18,7 @@ def follow(tip, duration_s=4.0):
     return svsa.simulate_arm(law="ndobc", tip=tip, feedforward=True, duration_s=duration_s)
 
 
-def test_the_tip_goes_round_its_ellipse():
+def test_tip_follows_an_ellipse():
     """Within 0.05 mm of it after the start."""
     result = follow(ELLIPSE)
     angle = 2.0 * math.pi * 0.5 * result.time_s
@@ -27,7 +27,7 @@ def test_the_tip_goes_round_its_ellipse():
     assert result.samples[1, :, 1].min() > 0.5, "q2 stays positive"
 
 
-def test_the_tip_moves_on_a_straight_line_from_rest_to_rest():
+def test_tip_moves_on_a_straight_line_from_rest_to_rest():
     result = follow(MOVE)
     first, last = result.tip_position_m[0], result.tip_position_m[-1]
     assert first == pytest.approx(MOVE.start_m, abs=1e-9)
@@ -60,11 +60,11 @@ def test_each_derivative_of_the_joint_references_is_that_of_the_one_before(tip):
         (ELLIPSE.changed(center_m=(0.0, 0.4)), "not around its top"),
     ],
 )
-def test_what_the_arm_does_not_reach_is_rejected(tip, message):
+def test_path_outside_the_reach_of_the_arm_is_rejected(tip, message):
     with pytest.raises(svsa.ParameterError, match=message):
         follow(tip)
 
 
-def test_a_movement_needs_two_points():
+def test_movement_needs_two_different_points():
     with pytest.raises(svsa.ParameterError, match="another point"):
         svsa.TipMove(start_m=(0.1, -0.3), end_m=(0.1, -0.3), duration_s=1.0)

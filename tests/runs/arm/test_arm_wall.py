@@ -91,7 +91,7 @@ def read_states(joint):
     )
 
 
-def test_elastic_wall_returns_what_it_took():
+def test_elastic_wall_returns_the_absorbed_energy():
     """Work of the wall up to each sample: −½ k depth²."""
     result = collide(1, 40.0, 2000.0, 0.0)
     depth = np.maximum(result.tip_position_m[:, 0] - 0.1, 0.0)
@@ -134,7 +134,7 @@ def test_largest_damping_is_followed():
     assert mean == pytest.approx(24.74, abs=0.01) and deviation < 1e-3
 
 
-def test_without_wall_there_is_no_force():
+def test_wall_force_is_zero_without_a_wall():
     result = svsa.simulate_arm(tip_loads=[svsa.TipForce(force_n=(1.0, 0.0))], duration_s=0.01)
     assert result.wall_force_n.shape == (10, 2)
     assert not result.wall_force_n.any()
@@ -157,7 +157,7 @@ def test_impulse_removed_before_it_acts_does_not_disturb_the_force_of_the_wall()
     assert np.all(force[:, 0] > 1.0)
 
 
-def test_wall_acts_from_its_onset_on():
+def test_wall_acts_from_its_onset():
     wall = svsa.Wall(normal_rad=0.0, distance_m=5.0, stiffness_n_per_m=1.0, start_s=0.004)
     force = svsa.simulate_arm(tip_loads=[wall], duration_s=0.01).wall_force_n
     assert not force[:4].any()

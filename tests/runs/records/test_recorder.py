@@ -205,7 +205,7 @@ def test_header_is_unchanged_by_json() -> None:
     assert isinstance(header, RecordHeader)
 
 
-def test_segments_of_a_long_record(tmp_path: Path) -> None:
+def test_long_record_is_read_across_its_segments(tmp_path: Path) -> None:
     samples = build_samples(150_000, lanes=1)
     header = build_header(lanes=("fl",))
     write_record(tmp_path / "run-1", header, [], 0, samples)

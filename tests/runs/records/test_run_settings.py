@@ -90,7 +90,7 @@ def test_run_with_other_settings_is_not_named_as_the_figure(
     assert (settings.figure, settings.figure_name) == ("4a", "Fig. 4A motion")
 
 
-def test_manual_load_at_the_time_of_the_figure() -> None:
+def test_manual_load_at_the_time_of_the_figure_names_the_figure() -> None:
     """The load counts by its time in the run, whether it was planned or not."""
     by_hand = (5000, "load", PaperLoad())
     assert describe(by_hand).figure_name == "Fig. 4A"

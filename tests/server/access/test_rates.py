@@ -47,7 +47,7 @@ def test_request_above_the_limit_is_reported_with_the_next_time(
         ("GET", SESSION, None),
     ],
 )
-def test_kind_of_a_request_for_the_limits(method: str, path: str, kind: str | None) -> None:
+def test_request_is_counted_by_its_kind(method: str, path: str, kind: str | None) -> None:
     assert find_kind(method, path) == kind
 
 

@@ -147,7 +147,9 @@ async def _answer_long(scope: Scope, receive: Receive, send: Send) -> None:
         (_answer_long, [200, 409], "carried_out"),
     ],
 )
-def test_answers_that_are_not_stored(app: ASGIApp, statuses: list[int], outcome: str) -> None:
+def test_interim_and_error_answers_are_not_stored(
+    app: ASGIApp, statuses: list[int], outcome: str
+) -> None:
     async def send_twice() -> list[int]:
         async with run_keeper(app, outcomes) as client:
             return [

@@ -30,7 +30,7 @@ def test_session_time_follows_wall_time_and_speed(lab: Lab) -> None:
     assert end - begin < 4 * (time.monotonic() - wall) + 0.3
 
 
-def test_pause_step_and_start(lab: Lab) -> None:
+def test_session_is_paused_stepped_and_started(lab: Lab) -> None:
     paused = lab.client.post(lab.session + "/pause").json()
     assert paused["status"] == "paused"
     stepped = lab.client.post(lab.session + "/step", json={"ticks": 7}).json()
@@ -105,7 +105,7 @@ def test_unknown_names_are_reported(lab: Lab) -> None:
     assert lab.client.delete(lab.session + "/loads/99").status_code == 404
 
 
-def test_figures_health_and_documentation(lab: Lab) -> None:
+def test_figures_health_and_schema_are_served(lab: Lab) -> None:
     assert [figure["key"] for figure in lab.client.get("/api/v1/kinds").json()["figures"]] == [
         "4a",
         "4b",

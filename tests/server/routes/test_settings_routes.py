@@ -41,7 +41,7 @@ def test_setting_is_applied(
     assert lab.read()["configuration"][section][field] == body[field]
 
 
-def test_gains_as_poles_and_as_coefficients(lab: Lab) -> None:
+def test_gains_are_set_as_poles_or_as_coefficients(lab: Lab) -> None:
     poles = {"position_poles_rad_per_s": [-50, -50, [-30, 20], [-30, -20]]}
     gains = lab.client.put(lab.session + "/gains", json=poles).json()["configuration"]["gains"]
     c0, _, _, c3 = gains["position_coefficients"]

@@ -121,7 +121,7 @@ def test_study_with_chosen_metrics_stores_those(lab):
         assert reported in wrong.json()["detail"]
 
 
-def test_of_many_rows_some_samples_are_returned_under_every_law(lab, complete_study):
+def test_rows_are_thinned_out_to_the_same_samples_of_every_law(lab, complete_study):
     answer = lab.get(
         f"{STUDIES}/complete_study/rows", params={"column": ["draw", "law"], "most": 11}
     )

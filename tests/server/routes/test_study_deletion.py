@@ -41,7 +41,7 @@ def test_running_study_is_cancelled_first_and_leaves_nothing(lab: httpx.Client) 
     delete(lab, name)
 
 
-def test_the_example_is_read_and_not_deleted(lab: httpx.Client) -> None:
+def test_example_study_is_readable_and_cannot_be_deleted(lab: httpx.Client) -> None:
     (example,) = lab.get(STUDIES).json()["saved"]
     address = f"{STUDIES}/{example['name']}"
     assert lab.get(address).json() == example

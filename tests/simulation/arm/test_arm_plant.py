@@ -54,7 +54,7 @@ def test_momentum_about_joint_1_is_kept_in_the_horizontal_plane():
     assert np.ptp(alone) > 0.05, "the momentum of the links alone must change"
 
 
-def test_an_impulse_changes_the_momentum_by_its_moment():
+def test_tip_impulse_changes_the_generalized_momentum_by_its_joint_torques():
     impulse = TipImpulse(impulse_ns=(0.2, -0.1), start_s=0.001)
     blocks, inputs = build_arm(
         RODS.changed(gravity_m_per_s2=0.0), damped=False, tip_loads=(impulse,)
@@ -68,7 +68,7 @@ def test_an_impulse_changes_the_momentum_by_its_moment():
     assert np.all(compute_momentum(blocks, states[1]) == 0.0)
 
 
-def test_a_force_does_the_work_that_the_energy_gains():
+def test_work_of_a_tip_force_equals_the_gain_in_energy():
     force = TipForce(force_n=(2.0, 1.0), duration_s=0.05)
     blocks, inputs = build_arm(damped=False, tip_loads=(force,))
     states = move(blocks, inputs, START, 60)
@@ -88,7 +88,7 @@ def test_a_force_does_the_work_that_the_energy_gains():
     )
 
 
-def test_a_tip_mass_is_an_arm_with_that_mass():
+def test_tip_mass_load_equals_a_tip_mass_of_the_arm():
     blocks, inputs = build_arm(tip_loads=(TipMass(mass_kg=0.2),))
     other, others = build_arm(RODS.changed(tip_mass_kg=0.2))
     for x, y in zip(
@@ -97,7 +97,7 @@ def test_a_tip_mass_is_an_arm_with_that_mass():
         assert x == pytest.approx(y, abs=1e-13)
 
 
-def test_a_wall_without_damping_returns_the_energy_and_with_damping_does_not():
+def test_wall_returns_the_energy_only_without_damping():
     """The tip hits a wall of 10 kN/m on its way up: the energy before is that after the contact."""
     kept = []
     for damping in (0.0, 20.0):
@@ -112,7 +112,7 @@ def test_a_wall_without_damping_returns_the_energy_and_with_damping_does_not():
     assert kept[1] < 0.97
 
 
-def test_a_torque_on_a_joint_is_the_same_on_the_link_as_through_its_load():
+def test_external_load_on_joint_2_accelerates_both_links():
     """An `ExternalLoad` on joint 2 accelerates both links as M⁻¹ (0, w) does."""
     blocks, inputs = build_arm()
     load, free, none = NO_LOAD._replace(w2=0.7), Point(0.0, 0.0), (AT_REST, AT_REST)
@@ -128,7 +128,7 @@ def test_a_torque_on_a_joint_is_the_same_on_the_link_as_through_its_load():
     assert matrix @ change == pytest.approx(np.array([0.0, 0.7]), abs=1e-12)
 
 
-def test_the_motors_turn_as_those_of_a_single_joint():
+def test_motors_of_an_arm_accelerate_as_those_of_a_single_joint():
     blocks, inputs = build_arm()
     rate = compute_arm_rate(
         blocks,

@@ -145,7 +145,7 @@ def test_too_many_changes_at_once_are_rejected_and_change_nothing():
     assert run.configuration == before
 
 
-def test_initial_value_and_range_of_a_trajectory():
+def test_trajectory_has_its_initial_value_and_range():
     """The first sets μ0; the check of the stiffness range uses the second."""
     sine = svsa.SineStiffness(
         offset_nm_per_rad=35.0, amplitude_nm_per_rad=1.0, frequency_hz=0.2, phase_rad=1.5 * math.pi

@@ -207,7 +207,9 @@ def test_run_is_not_deleted_while_it_is_recorded(catalogue: Catalogue) -> None:
     recorder.close()
 
 
-def test_folder_of_runs(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_data_folder_follows_the_environment(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
     monkeypatch.setenv("SVSA_DATA", str(tmp_path))
     assert find_data_folder() == tmp_path
     monkeypatch.delenv("SVSA_DATA")

@@ -141,7 +141,9 @@ def test_settings_tags_and_accents_are_found(varied: Catalogue) -> None:
         ({"plant": "bench"}, []),
     ],
 )
-def test_filters(varied: Catalogue, filters: dict, expected: list[str]) -> None:
+def test_filters_select_the_matching_runs(
+    varied: Catalogue, filters: dict, expected: list[str]
+) -> None:
     assert sorted(list_ids(varied, **filters)) == expected
     assert varied.list(**filters).total == len(expected)
 

@@ -63,7 +63,7 @@ def test_concurrent_change_of_a_run_is_reported(client: httpx.Client) -> None:
     assert back["revision"] == read["revision"]
 
 
-def test_delete_and_restore(client: httpx.Client) -> None:
+def test_run_is_deleted_and_restored(client: httpx.Client) -> None:
     assert client.delete("runs/run-2").raise_for_status().json()["deleted"] is not None
     assert client.get("runs").json()["total"] == 2
     assert client.get("runs", params={"trash": True}).json()["runs"][0]["id"] == "run-2"
@@ -174,7 +174,7 @@ def test_branch_has_its_origin_and_its_time_in_the_replay(
         catalogue.delete("run-9")
 
 
-def test_settings_that_differ_between_runs(client: httpx.Client) -> None:
+def test_difference_of_runs_lists_the_settings_that_differ(client: httpx.Client) -> None:
     same = client.get("runs/run-0/difference", params={"other": "run-1"}).raise_for_status()
     assert same.json() == {"runs": ["run-0", "run-1"], "titles": ["Run 0", "Run 1"]} | {
         "differences": []
