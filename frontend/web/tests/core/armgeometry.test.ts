@@ -60,7 +60,7 @@ describe("the tip of an arm", () => {
 });
 
 describe("the drawn ellipse", () => {
-  it("grows with the root of the stiffness up to half of the reach", () => {
+  it("grows with the square root of the stiffness up to half of the reach", () => {
     const axes = (sigma: number) => {
       const found = ellipseOf(LENGTHS, [0.4, 1.2], [sigma, sigma]);
       return found === null ? [] : axesOf(LENGTHS, found, 150);

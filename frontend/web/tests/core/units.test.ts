@@ -11,7 +11,7 @@ import {
 } from "../../src/core/units";
 
 describe("units", () => {
-  it("turns radians into degrees and back", () => {
+  it("converts radians to degrees and back", () => {
     expect(toDegrees(Math.PI / 3)).toBeCloseTo(60, 12);
     expect(toRadians(toDegrees(0.7))).toBeCloseTo(0.7, 15);
   });
@@ -35,11 +35,11 @@ describe("units", () => {
     [12.083, "12.1"],
     [0, "0.0"],
     [null, "–"],
-  ])("writes an error of %s as %s: a small one does not read as none", (value, shown) => {
+  ])("writes an error of %s as %s: a small error is not shown as zero", (value, shown) => {
     expect(formatError(value)).toBe(shown);
   });
 
-  it("writes input fields short, with a plain minus", () => {
+  it("writes input fields briefly, with a plain minus", () => {
     expect(formatInput(toDegrees(1.0472))).toBe("60");
     expect(formatInput(-12.5)).toBe("-12.5");
     expect(formatInput(12960000)).toBe("12960000");
@@ -69,7 +69,7 @@ describe("formatSeconds", () => {
     [0.25, "250 ms"],
     [2.4, "2.40 s"],
     [0, "0 µs"],
-  ])("says %f s in the unit that reads best", (seconds, shown) => {
+  ])("writes %f s in the most readable unit", (seconds, shown) => {
     expect(formatLapse(seconds)).toBe(shown);
   });
 });

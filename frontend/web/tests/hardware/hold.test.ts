@@ -28,7 +28,7 @@ describe("the dead-man's switch", () => {
     return { ...(await import("../../src/hardware/hold")), mayCommand, session };
   }
 
-  it("speaks at once and every 40 ms until the last grip is released", async () => {
+  it("sends at once and every 40 ms until the last grip is released", async () => {
     const { pressInput: hold, releaseInput: letGo, isSwitchHeld: isHeld } = await load();
     hold("key");
     hold("pointer");
@@ -42,7 +42,7 @@ describe("the dead-man's switch", () => {
     expect([said.length, isHeld.value]).toEqual([11, false]);
   });
 
-  it("is released when the window loses the focus, another takes control, or the bench is gone", async () => {
+  it("is released when the window loses the focus, another user takes control, or the bench is lost", async () => {
     const { pressInput: hold, watchHold, isSwitchHeld: isHeld, mayCommand, session } = await load();
     watchHold();
     const losses = [
@@ -66,7 +66,7 @@ describe("the dead-man's switch", () => {
     expect(isHeld.value, "there is nothing to hold").toBe(false);
   });
 
-  it("remembers what ended a run, until it is held again or runs again", async () => {
+  it("remembers the reason for the end of a run until it is held or runs again", async () => {
     const {
       pressInput: hold,
       releaseInput: letGo,

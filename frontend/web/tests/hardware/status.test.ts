@@ -33,7 +33,7 @@ const allowed = (change: object) =>
     .map(([name]) => name);
 
 describe("the states of a bench", () => {
-  it("lie on one line, and a ramp is still on its last place", () => {
+  it("are shown as a sequence, in which a ramp belongs to the last stage", () => {
     const places = (status: BenchState["status"]) =>
       STAGES.map((stage) => stagePosition(stage, status));
     expect(places("config")).toEqual(["done", "done", "here", "ahead", "ahead", "ahead"]);
@@ -43,7 +43,7 @@ describe("the states of a bench", () => {
     expect(new Set(unknown), "without a connection it is nowhere").toEqual(new Set(["ahead"]));
   });
 
-  it("allow what the server takes, and nothing while the drives come up", () => {
+  it("allow the calls that the server accepts, and none while the drives start up", () => {
     expect(allowed({})).toEqual(["arm"]);
     expect(allowed({ problems: ["No calibration."] })).toEqual([]);
     expect(allowed({ status: "mode" })).toEqual([]);
@@ -65,7 +65,7 @@ describe("the states of a bench", () => {
     expect(allowed({ loop: { state: "starting" } }), "it takes no command yet").toEqual([]);
   });
 
-  it("tell what to do next", () => {
+  it("name the next action", () => {
     expect(adviceFor(bench({ problems: ["No calibration."] }))).toBe("problems");
     const off = { supervised: true, ages_s: [1000, 1000, 0.001] };
     expect(adviceFor(bench(off))).toBe("arm");
@@ -90,13 +90,13 @@ describe("the states of a bench", () => {
   });
 });
 
-describe("what stands behind a bench", () => {
-  it("is shown once the bus has reported it, not before", () => {
+describe("the kind of a bench", () => {
+  it("is shown only after the bus has reported it", () => {
     const marks = [true, false, null].map((emulated) => plantKindOfBench(bench({ emulated })));
     expect(marks).toEqual(["emulated", "real", "unknown"]);
   });
 
-  it("counts as metal until it is known to be none", () => {
+  it("counts as real hardware until it is known to be emulated", () => {
     expect([true, false, null].map((emulated) => isRealBench(bench({ emulated })))).toEqual([
       false,
       true,
@@ -116,7 +116,7 @@ describe("a quick stop of a simulation", () => {
       ...change,
     }) as unknown as SessionState;
 
-  it("is shown until it continues", () => {
+  it("is shown until the simulation continues", () => {
     expect(isStoppedSimulation(state({}))).toBe(true);
     expect(isStoppedSimulation(state({ status: "running" }))).toBe(false);
     expect(isStoppedSimulation(state({ tick: 710 }))).toBe(false);
@@ -139,7 +139,7 @@ describe("lateness", () => {
     ).toEqual(["fresh", "fresh", "stale", "stale", "lost", "lost"]);
   });
 
-  it("calls what need not speak yet silent, never lost", () => {
+  it("calls a loop silent, never lost, if it need not send", () => {
     expect(freshnessOf(1000, BOUNDS, false)).toBe("silent");
     expect(freshnessOf(1000, BOUNDS), "unknown since when").toBe("unheard");
     expect(freshnessOf(0.001, BOUNDS, false)).toBe("fresh");

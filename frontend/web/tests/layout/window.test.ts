@@ -27,12 +27,12 @@ const lanesFrom = (...ticks: number[]): Pick<SessionState, "bench" | "lanes" | "
 const metrics = (seconds: number | null) => ({ recovery_time_s: seconds }) as Metrics;
 
 describe("a window", () => {
-  it("names what the recovery time of a bench includes", () => {
+  it("names the contents of the recovery time of a bench", () => {
     expect(recoveryNameOf({ bench: null }).name).toBe("Recovery time");
     expect(recoveryNameOf({ bench: {} as BenchState }).name).toBe("Mark to recovery");
   });
 
-  it("says since when and since what", () => {
+  it("is described by its event and its start time", () => {
     expect(sinceOf(window("start", ""))).toBe("From the start");
     expect(sinceOf(window("load", "3 kg load"))).toBe("3 kg load, since 5.00 s");
     expect(sinceOf(window("change", "NDOBC → FL"))).toBe("NDOBC → FL, since 5.00 s");
@@ -40,27 +40,27 @@ describe("a window", () => {
     expect(sinceOf(window("stop", "Stop"))).toBe("Stop, since 5.00 s");
   });
 
-  it("has a best where all lanes are simulated, none where one of them is a bench", () => {
+  it("has a best value if all lanes are simulated, and none if one of them is a bench", () => {
     const state = lanesFrom(0, 0);
     expect(bestIn(state, [0.2, 0.1])).toEqual([1]);
     expect(bestIn({ ...state, bench: {} as BenchState }, [0.2, 0.1])).toEqual([]);
   });
 });
 
-it("marks no best in a window that one controller alone began with", () => {
+it("marks no best value in a window that started with a single controller", () => {
   expect(bestIn(lanesFrom(0, 5000), [0.002, 12.1])).toEqual([]);
   expect(bestIn(lanesFrom(0, 3000), [0.002, 12.1])).toEqual([0]);
   expect(bestIn(lanesFrom(5000, 5000), [0.002, 12.1])).toEqual([0]);
 });
 
-it("knows a lane that ended by its numbers, which half a second without any takes away", () => {
+it("reports a lane as ended if it has no metrics half a second after the start of the window", () => {
   const state = { time_s: 9, window: window("load", "3 kg load off") };
   expect(hasEnded({ in_window: null }, state)).toBe(true);
   expect(hasEnded({ in_window: metrics(null) }, state)).toBe(false);
   expect(hasEnded({ in_window: null }, { ...state, time_s: 5.4 })).toBe(false);
 });
 
-it("says it in the words of the replay and the overlay", async () => {
+it("uses the same words as the replay and the overlay", async () => {
   vi.stubGlobal("location", { search: "" });
   const { describeMeasured } = await import("../../src/runs/list/measured");
   for (const [kind, label] of [
@@ -82,18 +82,18 @@ describe("the recovery time", () => {
   const words = (kind: WindowState["kind"], seconds: number | null) =>
     recoveryOf(metrics(seconds), window(kind, "3 kg load")).words;
 
-  it("is that of the window which a load or its removal began", () => {
+  it("is that of a window that a load or its removal started", () => {
     expect(words("load", 0.2)).toBe("0.20");
     expect(words("unload", 0.2)).toBe("0.20");
     expect(words("load", null)).toBe("not yet");
   });
 
-  it("is none in another window, whatever load came before", () => {
+  it("is empty in another window, after any load", () => {
     expect(words("change", 0.2)).toBe("\u2013");
     expect(words("start", 0.2)).toBe("no load yet");
   });
 
-  it("is none while the error is large again, as under a load that grows", () => {
+  it("is empty while the error is large again, as under a growing load", () => {
     const load = window("load", "Series torque");
     const grown = {
       ...metrics(0),
@@ -108,7 +108,7 @@ describe("the recovery time", () => {
     expect(recoveryOf(small, load).words).toBe("0.00");
   });
 
-  it("is nothing for a lane without numbers", () => {
+  it("is empty for a lane without metrics", () => {
     expect(recoveryOf(null, window("load", "3 kg load")).words).toBe("\u2013");
   });
 });

@@ -122,7 +122,7 @@ describe("a change of a run whose answer was lost", () => {
     expect(asked.filter((each) => each.startsWith("PATCH"))).toHaveLength(1);
   });
 
-  it("is not asked after where it only reads", async () => {
+  it("sends no query for a lost read", async () => {
     const page = await load(() => "lost");
     const { readRun } = await import("../../../src/core/api/runs");
     const { attempt, runsProblem } = await import("../../../src/runs/list/problem");
@@ -132,7 +132,7 @@ describe("a change of a run whose answer was lost", () => {
   });
 });
 
-describe("an answer that came", () => {
+describe("a received answer", () => {
   it("is accepted, or its rejection is reported, without a query", async () => {
     const page = await load(() => ({ status: 200, body: STATE }));
     expect(await page.press()).toBe(true);

@@ -19,14 +19,14 @@ afterEach(() => {
   vi.unstubAllGlobals();
 });
 
-it("waits for a slow lab during login, which would else create a second user", async () => {
+it("waits for a slow lab during login, since a repeated login would create a second user", async () => {
   const { rejoin: comeBack, join, login } = await import("../../../src/core/api/access");
   await Promise.all([join("Ada", "ABCD-EFGH"), comeBack("IJKL"), login("secret")]);
   expect(waits).toHaveLength(3);
   expect(Math.min(...waits)).toBeGreaterThan(SLOW_MS);
 });
 
-it("gives a prediction the time that a worker which has to begin takes, and asks it once", async () => {
+it("waits for a prediction until its worker has started, and requests it once", async () => {
   const { requestResponse, predict } = await import("../../../src/core/api/design");
   await Promise.all([predict({}), requestResponse({} as never)]);
   expect(waits).toHaveLength(2);

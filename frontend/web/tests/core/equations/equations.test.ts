@@ -4,7 +4,7 @@ import { EQUATIONS, TOPICS } from "../../../src/core/equations/equations";
 import { text } from "../../../src/core/text/en";
 
 describe("equations", () => {
-  it("are typeset without an error, with words for each", () => {
+  it("are typeset without an error, each with its description", () => {
     for (const topic of TOPICS) {
       expect(text.equations.topics[topic]).toBeTruthy();
       for (const { tex, printed, note } of EQUATIONS[topic]) {

@@ -27,7 +27,7 @@ beforeEach(() => {
 });
 afterEach(() => vi.useRealTimers());
 
-test("a server that is silent for a minute is polled on, with a message until it answers", async () => {
+test("a silent server is polled again, with a message until it answers", async () => {
   const { job, follow } = followed();
   api.readJob.mockRejectedValue(unanswered);
   const ended = follow(stateOf("waiting") as never);
@@ -41,14 +41,14 @@ test("a server that is silent for a minute is polled on, with a message until it
   expect([job.value?.status, ends]).toEqual(["done", 1]);
 });
 
-test("a job that the server does not know any more is removed, with the reason", async () => {
+test("a job unknown to the server is removed, with the reason", async () => {
   const { job, follow } = followed();
   api.readJob.mockRejectedValue(gone);
   await follow(stateOf("running") as never);
   expect([job.value, errors, ends]).toEqual([null, [gone], 0]);
 });
 
-test("another error message of the meantime stays", async () => {
+test("an error message that was set meanwhile is kept", async () => {
   const { follow } = followed();
   api.readJob.mockResolvedValueOnce(stateOf("running")).mockResolvedValue(stateOf("done"));
   const ended = follow(stateOf("running") as never);
@@ -57,7 +57,7 @@ test("another error message of the meantime stays", async () => {
   expect(errors).toEqual([]);
 });
 
-test("an answer to what was asked for before comes to nothing", async () => {
+test("an answer to a former request is discarded", async () => {
   const { follow, stop: leave } = polling((error) => errors.push(error));
   let arrive: (found: string) => void = () => undefined;
   let fail: (error: unknown) => void = () => undefined;

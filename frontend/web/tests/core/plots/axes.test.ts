@@ -28,11 +28,11 @@ describe("niceRange", () => {
     expect(niceRange(-60, 60, 2)).toEqual([-80, 80]);
   });
 
-  it("rests while the data move a little", () => {
+  it("does not change while the data change slightly", () => {
     expect(niceRange(-59.8, 60, 2)).toEqual(niceRange(-60, 59.7, 2));
   });
 
-  it("never shows less than the span", () => {
+  it("is never smaller than the minimum span", () => {
     const [low, high] = niceRange(15, 15, 2);
     expect(high - low).toBeGreaterThanOrEqual(2);
     expect((low + high) / 2).toBeCloseTo(15, 9);
@@ -45,11 +45,11 @@ describe("niceRange", () => {
 });
 
 describe("includeBounds", () => {
-  it("leaves distant bounds out", () => {
+  it("ignores distant bounds", () => {
     expect(includeBounds(-2, 2, [5, 15])).toEqual([-2, 2]);
   });
 
-  it("shows a bound that the data come near to", () => {
+  it("includes a bound near the data", () => {
     const [low, high] = includeBounds(-1, 4.5, [5, 15]);
     expect(high).toBeGreaterThan(5);
     expect(high).toBeLessThan(15);
@@ -66,7 +66,7 @@ describe("the numbers of the time axis", () => {
     [420, 20, 1003.7],
     [900, 0.3, 1000.1],
     [900, 5, 9.99],
-  ])("on %s px of %s s up to %s s stay whole and apart", (width, length, to) => {
+  ])("on %s px of %s s up to %s s are complete and do not overlap", (width, length, to) => {
     const from = to - length;
     const step = timeStep({ from, to }, width);
     const perStep = (step / length) * width;

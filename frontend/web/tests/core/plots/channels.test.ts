@@ -28,7 +28,7 @@ describe("the limits of the torques", () => {
     ]);
   });
 
-  it("are the sum of both of motors that pull against each other", () => {
+  it("are the sum of both antagonistic motors", () => {
     expect(boundsOf(traces, limited(6, 5, true))).toEqual([
       { label: "limit u₁, u₂", value: 11, colour: "reference" },
     ]);

@@ -60,7 +60,7 @@ const append = (ring: SampleRing, firstTick: number, count: number) =>
     0.001,
   );
 
-it("a plot that redraws on its own does not mark samples as drawn that its curves lack", async () => {
+it("a plot that redraws itself does not mark samples as drawn that its curves lack", async () => {
   const { Chart } = await import("../../../src/core/plots/chart");
   const ring = new SampleRing(1000, ["position_error_rad"], [1]);
   let span = { from: 0, to: 1 };

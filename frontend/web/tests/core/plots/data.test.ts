@@ -42,13 +42,13 @@ function decimated(values: readonly number[], perBucket: number, first = 0) {
 const GAP = [Number.NaN, Number.NaN];
 
 describe("decimation", () => {
-  it("keeps every sample where there is room", () => {
+  it("keeps every sample if there is space", () => {
     expect(decimated([1, 5, 2], 1).map(([, y]) => y)).toEqual([1, 5, 2]);
     expect(samplesPerBucket(400, 480)).toBe(1);
     expect(samplesPerBucket(12_001, 480)).toBe(26);
   });
 
-  it("keeps the smallest and the largest of each bucket, real samples in the order of time", () => {
+  it("keeps the minimum and maximum of each bucket in the order of time", () => {
     const points = decimated([0, 9, 1, 2, 5, 4, -7, 3], 4);
     expect(points).toEqual([
       [0, 0],
@@ -58,13 +58,13 @@ describe("decimation", () => {
     ]);
   });
 
-  it("cuts the same buckets wherever it begins", () => {
+  it("uses the same buckets from any start", () => {
     const values = Array.from({ length: 40 }, (_, index) => Math.sin(index * 1.7));
     const whole = decimated(values, 8);
     expect(decimated(values, 8, 5).slice(-8)).toEqual(whole.slice(-8));
   });
 
-  it("leaves a gap where there is no number", () => {
+  it("leaves a gap at missing numbers", () => {
     const none = Number.NaN;
     expect(decimated([1, none, none, none, none, none, 4, 4, 5], 3)).toEqual([
       [0, 1],
@@ -75,7 +75,7 @@ describe("decimation", () => {
     expect(decimated([none, none, none], 3)).toEqual([GAP]);
   });
 
-  it("finds the extent past what is no number", () => {
+  it("ignores missing numbers in the extent", () => {
     const points = { x: new Float64Array(3), y: new Float64Array([Number.NaN, -4, 3]), count: 3 };
     expect(extentOf([points])).toEqual([-4, 3]);
     expect(extentOf([{ ...points, count: 1 }])).toEqual([null, null]);
@@ -83,12 +83,12 @@ describe("decimation", () => {
   });
 });
 
-describe("between two cursors", () => {
+describe("a measurement between two cursors", () => {
   const ring = ringOf([3, -4, Number.NaN, 12, 100]);
   const measure = (a: number, b: number, factor = 1) =>
     measureBetween(ring, "position_error_rad", 1, [a, b], factor);
 
-  it("are the samples themselves, not what lies between them", () => {
+  it("uses the samples without interpolation", () => {
     expect(measure(0, 3)).toEqual({
       ...{ a: 3, b: 12, delta: 9, min: -4, max: 12 },
       rms: Math.sqrt((9 + 16 + 144) / 3),
@@ -96,15 +96,15 @@ describe("between two cursors", () => {
     });
   });
 
-  it("does not matter which is left, but for the sign of the difference", () => {
+  it("does not depend on the order of the cursors, except for the sign of the difference", () => {
     expect(measure(3, 0)).toMatchObject({ delta: -9, min: -4, max: 12 });
   });
 
-  it("is in the unit on screen", () => {
+  it("is in the displayed unit", () => {
     expect(measure(0, 1, 2)).toMatchObject({ a: 6, b: -8, delta: -14, min: -8, max: 6 });
   });
 
-  it("is no number where there is none", () => {
+  it("is NaN without samples", () => {
     expect(measure(2, 2)).toEqual({
       ...{ a: Number.NaN, b: Number.NaN, delta: Number.NaN },
       ...{ min: Number.NaN, max: Number.NaN, rms: Number.NaN, missingS: 0 },
@@ -123,7 +123,7 @@ function ringWithGap(): SampleRing {
 }
 
 describe("a gap of 2 s", () => {
-  it("is one in the curve, also where many samples share a bucket", () => {
+  it("interrupts the curve, also if many samples share a bucket", () => {
     for (const perBucket of [1, 4, 50]) {
       const points = emptyPoints();
       decimate(all(ringWithGap()), perBucket, 1, points);
@@ -137,7 +137,7 @@ describe("a gap of 2 s", () => {
     }
   });
 
-  it("is said with what is measured across it", () => {
+  it("is reported with a measurement across it", () => {
     const ring = ringWithGap();
     const across = measureBetween(ring, "position_error_rad", 1, [0, ring.length - 1]);
     expect(across).toMatchObject({ a: 1, b: 2, delta: 1, min: 1, max: 2 });
@@ -145,7 +145,7 @@ describe("a gap of 2 s", () => {
     expect(measureBetween(ring, "position_error_rad", 1, [0, 5]).missingS).toBe(0);
   });
 
-  it("is rows without values in CSV, at its first and its last sample", () => {
+  it("has a row without values at each end in CSV", () => {
     const csv = writeCsv(
       ringWithGap(),
       { from: 0.05, to: 2.06 },
@@ -156,7 +156,7 @@ describe("a gap of 2 s", () => {
 });
 
 describe("CSV", () => {
-  it("has a column a controller, without values where another one was in control", () => {
+  it("has one column per controller, empty while another one was in control", () => {
     const [ndobc] = ALONE[0] as [(typeof ALONE)[0][0]];
     const switched = [
       [
@@ -180,7 +180,7 @@ describe("CSV", () => {
     expect(columnsOf(["position_error_rad"], switched, { from: 0.05, to: 1 })).toHaveLength(1);
   });
 
-  it("has the window only, names with units, and nothing where there is no number", () => {
+  it("contains the window only, with units in the names and empty cells for missing numbers", () => {
     const csv = writeCsv(
       ringOf([0.5, Number.NaN, 0.1, 7]),
       { from: 0, to: 0.02 },

@@ -4,12 +4,12 @@ import { nameMarks, rankOf } from "../../../src/core/plots/eventlines";
 
 const mark = (x: number, kind: string, room = 80) => ({ x, room, rank: rankOf(kind) });
 
-describe("the names of marks above the plots", () => {
-  it("stand to the right, or to the left where the plots end", () => {
+describe("the labels of event lines", () => {
+  it("are on the right, or on the left at the end of the plots", () => {
     expect(nameMarks([mark(100, "law"), mark(580, "law")], 600)).toEqual(["right", "left"]);
   });
 
-  it("never leave out a fault for the load that came in the same moment", () => {
+  it("include a fault that occurs at the same time as a load", () => {
     const marks = [mark(300, "fault"), mark(300, "load_on")];
     expect(nameMarks(marks, 600)).toEqual(["right", "left"]);
     const narrow = [mark(300, "load_off"), mark(300, "fault"), mark(300, "law")];
@@ -20,7 +20,7 @@ describe("the names of marks above the plots", () => {
     ]);
   });
 
-  it("never cover one another, and of equal ones the newest is named", () => {
+  it("do not overlap, and the newest of equal ones is shown", () => {
     const marks = [mark(100, "gains"), mark(130, "gains"), mark(160, "gains")];
     expect(nameMarks(marks, 600)).toEqual(["left", null, "right"]);
   });

@@ -45,12 +45,12 @@ beforeEach(() => {
   passFrames();
 });
 
-it("asks for no frame where there is no plot", () => {
+it("requests no frame without a plot", () => {
   page.incrementReceived();
   expect(asked.length).toBe(0);
 });
 
-it("draws a new plot in one frame, and rests", () => {
+it("draws a new plot in one frame and then requests none", () => {
   const draw = vi.fn();
   const drawing = page.addDrawing(draw);
   expect(passFrames()).toBe(1);
@@ -59,7 +59,7 @@ it("draws a new plot in one frame, and rests", () => {
   drawing.remove();
 });
 
-it("asks for one frame when samples come, however many do before it", () => {
+it("requests one frame for all samples that arrive before it", () => {
   const draw = vi.fn();
   const follow = vi.fn();
   const drawing = page.addDrawing(draw);
@@ -76,7 +76,7 @@ it("asks for one frame when samples come, however many do before it", () => {
   stop();
 });
 
-it("draws the last samples too that come sooner than it draws", () => {
+it("also draws the last samples if they arrive faster than it draws", () => {
   let shown = -1;
   const stop = page.onFrame(() => {
     shown = page.receivedCount.peek();
@@ -97,7 +97,7 @@ it.each([
   ["the theme", () => page.toggleTheme()],
   ["what is held", () => page.freeze()],
   ["the cursors", () => page.toggleCursors()],
-])("draws again for another state of %s", (_, change) => {
+])("draws again after a change of %s", (_, change) => {
   page.samples.ring.append(
     {
       ...{ run: 1, firstTick: 0, stride: 1, missed: 0, lanes: [1], count: 2 },
@@ -115,7 +115,7 @@ it.each([
   drawing.remove();
 });
 
-it("draws no samples while it stands still, and those that came when it goes live", () => {
+it("draws no samples while frozen, and draws those received when it goes live", () => {
   const draw = vi.fn();
   const drawing = page.addDrawing(draw);
   page.freeze();
@@ -129,7 +129,7 @@ it("draws no samples while it stands still, and those that came when it goes liv
   drawing.remove();
 });
 
-it("leaves what is scrolled out of sight, and draws it when it comes back", () => {
+it("does not draw a plot outside the viewport, and draws it when it is visible again", () => {
   const draw = vi.fn();
   const drawing = page.addDrawing(draw);
   drawing.setVisible(false);
@@ -144,7 +144,7 @@ it("leaves what is scrolled out of sight, and draws it when it comes back", () =
   drawing.remove();
 });
 
-it("draws one again for another size without the others", () => {
+it("draws only the resized plot again", () => {
   const [draw, other] = [vi.fn(), vi.fn()];
   const drawings = [page.addDrawing(draw), page.addDrawing(other)];
   passFrames();

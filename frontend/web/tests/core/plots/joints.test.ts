@@ -21,7 +21,7 @@ const CAST = [
 ];
 
 describe("the plots of a joint of an arm", () => {
-  it("have its lanes, under the names of their controllers", () => {
+  it("have its lanes with the names of their controllers", () => {
     const channels = ["position_rad", "position_reference_rad"] as const;
     const { groups, common } = composeOfJoint(channels, CAST, 2);
     const traces = groups.flatMap((group) => group.traces);

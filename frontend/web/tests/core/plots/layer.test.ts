@@ -4,7 +4,7 @@ import { piecesOf } from "../../../src/core/plots/layer";
 
 vi.mock("uplot", () => ({ default: class {} }));
 
-describe("the roll that a plot's strokes are on", () => {
+describe("the scrolled layer of a plot", () => {
   const WIDTH = 7;
   /** The pixel since time 0 in each column of the canvas. */
   const roll = (left: number, first: number) =>
@@ -12,7 +12,7 @@ describe("the roll that a plot's strokes are on", () => {
       Array.from({ length: to - from }, (_, index) => [from + index, left + from + index - shift]),
     );
 
-  it("has every column of the plot once", () => {
+  it("contains every column of the plot once", () => {
     for (let left = 0; left < 2 * WIDTH; left++) {
       for (let first = 0; first <= WIDTH; first++) {
         const pixels = roll(left, first).map(([, pixel]) => pixel);
@@ -23,7 +23,7 @@ describe("the roll that a plot's strokes are on", () => {
     }
   });
 
-  it("leaves each pixel where it is while time goes on", () => {
+  it("keeps each pixel in its column while time advances", () => {
     for (let left = 0; left < 3 * WIDTH; left++) {
       for (const [column, pixel] of roll(left, 0)) expect(column).toBe((pixel as number) % WIDTH);
     }

@@ -12,12 +12,12 @@ import css from "../../../src/theme.css?raw";
 const colours = (own: readonly (number | null)[]) =>
   shareLineStyles(own).map(({ colour }) => colour);
 
-describe("line styles that curves share", () => {
-  it("are each its own where no two have the same colour", () => {
+describe("line styles of several curves", () => {
+  it("are those of the laws if their colours differ", () => {
     expect(shareLineStyles([8, 0, 6, 12])).toEqual([8, 0, 6, 12].map(lineStyleOf));
   });
 
-  it("are another colour where another law has the own one", () => {
+  it("have another colour if another law has the same one", () => {
     expect(shareLineStyles([0, 5])).toEqual([lineStyleOf(0), lineStyleOf(1)]);
     expect(shareLineStyles([0, 5, 1])).toEqual([lineStyleOf(0), lineStyleOf(2), lineStyleOf(1)]);
   });
@@ -28,7 +28,7 @@ describe("line styles that curves share", () => {
     expect(colours([8, 3])[1]).toBe(lineStyleOf(3).colour);
   });
 
-  it("are all different, in colour while there are colours", () => {
+  it("are all different, by colour while colours are available", () => {
     for (const own of [
       [0, 0, 0, 0, 0],
       [null, null, null],
@@ -40,18 +40,18 @@ describe("line styles that curves share", () => {
     expect(new Set(looks.map(({ colour, dash }) => `${colour} ${dash.join()}`)).size).toBe(20);
   });
 
-  it("are one colour a law next to others: two of FL differ in dash", () => {
+  it("use one colour for two lanes of a law next to other laws, with different dashes", () => {
     const [ndobc, one, other] = shareLineStyles([0, 1, 1]);
     expect([ndobc?.colour, one?.colour, other?.colour]).toEqual(["blue", "vermilion", "vermilion"]);
     expect(one?.dash).not.toEqual(other?.dash);
   });
 
-  it("leave to those that have a line style their own", () => {
+  it("keep the line style of laws that have one", () => {
     expect(shareLineStyles([null, 0])).toEqual([lineStyleOf(1), lineStyleOf(0)]);
   });
 });
 
-it("solid is the chosen controller alone, and dots are left to references", () => {
+it("only the selected controller is solid, and only references are dotted", () => {
   for (const lineStyle of Array.from({ length: 20 }, (_, index) => index)) {
     expect(lineStyleOfLane(lineStyle, true).dash).toEqual([]);
     for (const { dash } of [lineStyleOf(lineStyle), lineStyleOfLane(lineStyle, false)]) {
@@ -63,7 +63,7 @@ it("solid is the chosen controller alone, and dots are left to references", () =
   }
 });
 
-it("the line style at a time is that of who controlled the lane then", () => {
+it("the line style at a time is that of the controller of the lane at that time", () => {
   const lane = [
     { line_style: 0, start_s: 0 },
     { line_style: 3, start_s: 2 },
@@ -83,7 +83,7 @@ describe("a law has one line style", () => {
     );
   });
 
-  it("in a study, wherever it stands there", async () => {
+  it("in a study, at any position", async () => {
     const { study } = await import("../../../src/evaluation/studies/studies");
     const { lawLineStyles } = await import("../../../src/evaluation/studies/drawnrows");
     study.value = { laws: ["pd", "ndobc"] } as typeof study.value;
@@ -91,7 +91,7 @@ describe("a law has one line style", () => {
     study.value = null;
   });
 
-  it("and what is installed nowhere one that no other has", async () => {
+  it("also if it is not installed, different from those of other laws", async () => {
     const { lineStylesOfLaws } = await import("../../../src/core/plots/linestyles");
     expect(lineStylesOfLaws(["theirs", "ndobc"])).toEqual([lineStyleOf(1), lineStyleOf(0)]);
   });
@@ -160,22 +160,17 @@ const themes = ["light", "dark"].map((theme, place) => {
   return { theme, surface: read("surface"), lineStyles: NAMES.map((name) => read(`plot-${name}`)) };
 });
 
-describe.each(themes)("the lineStyles of curves, $theme", ({ surface, lineStyles }) => {
-  it("stand out from the page", () => {
+describe.each(themes)("the line styles of curves, $theme", ({ surface, lineStyles }) => {
+  it("have sufficient contrast with the page", () => {
     for (const lineStyle of lineStyles)
       expect(contrast(lineStyle, surface), lineStyle).toBeGreaterThan(3);
   });
 
-  it.each(Object.keys(SIGHTS))(
-    "are distinguishable with %s, for dashes may be the same",
-    (sight) => {
-      for (const [at, one] of lineStyles.entries()) {
-        for (const other of lineStyles.slice(at + 1)) {
-          expect(difference(SIGHTS[sight] ?? [], one, other), `${one} ${other}`).toBeGreaterThan(
-            14,
-          );
-        }
+  it.each(Object.keys(SIGHTS))("are distinguishable with %s without their dashes", (sight) => {
+    for (const [at, one] of lineStyles.entries()) {
+      for (const other of lineStyles.slice(at + 1)) {
+        expect(difference(SIGHTS[sight] ?? [], one, other), `${one} ${other}`).toBeGreaterThan(14);
       }
-    },
-  );
+    }
+  });
 });

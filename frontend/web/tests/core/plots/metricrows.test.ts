@@ -52,7 +52,7 @@ function show(one: MeasuredLane) {
 }
 
 describe("the metrics of a lane", () => {
-  it("are grouped, in the units of the screen", () => {
+  it("are grouped, in the displayed units", () => {
     const { Position, Stiffness, Effort } = show(lane());
     expect(Position?.["rms error"]).toEqual({ value: "0.573" });
     expect(Position?.IAE).toEqual({ value: "1.15" });
@@ -62,7 +62,7 @@ describe("the metrics of a lane", () => {
     expect(Effort?.["Mechanical work"]).toEqual({ value: "0.750" });
   });
 
-  it("have a response to a step only where there is one", () => {
+  it("include a step response only after a step", () => {
     expect(Object.keys(show(lane()).Position ?? {})).not.toContain("Overshoot");
     const { Position, Stiffness } = show(lane({ rise_time_s: 0.3, overshoot_share: 0.163 }));
     expect(Position?.["Rise time"]).toEqual({ value: "0.300" });
@@ -84,7 +84,7 @@ describe("the metrics of a lane", () => {
     expect(show(one).Position?.[name]).toEqual({ value: "–", hint: words.undefined[reason] });
   });
 
-  it("say that an error which grew again has not recovered, and that a stiffness did not move", () => {
+  it("report an error that grew again as not recovered, and a stiffness that did not change", () => {
     const lost = show(lane({ steady_state_position_error_rad: 0.05 }));
     expect(lost.Position?.["Recovery time"]?.value).toBe("–");
     const { Stiffness, Effort } = show(lane({ peak_stiffness_error_nm_per_rad: 0.009 }));

@@ -4,7 +4,7 @@ import { shareOfList } from "../../../src/core/plots/plots";
 
 vi.mock("uplot", () => ({ default: class {} }));
 
-describe("the share of a plot in the list", () => {
+describe("the height of a plot in the list", () => {
   it.each([
     { height: 536, least: 72, together: 5 },
     { height: 535, least: 72, together: 4 },
@@ -12,13 +12,13 @@ describe("the share of a plot in the list", () => {
     { height: 330, least: 62, together: 3 },
     { height: 500, least: 72, together: 4, head: 26 },
     { height: 500, least: 72, together: 3, head: 50 },
-  ])("is that of $together whole plots in $height px", ({ height, least, together, head }) => {
+  ])("is that of $together complete plots in $height px", ({ height, least, together, head }) => {
     const share = shareOfList(height, least, head);
     expect(together * share + 46).toBeCloseTo(height + 1, 9);
     expect(share).toBeGreaterThanOrEqual(least + (head ?? 26));
   });
 
-  it("is the whole list where not even one has room", () => {
+  it("is the complete list if a single plot does not fit", () => {
     expect(shareOfList(100, 92)).toBe(55);
     expect(shareOfList(0, 92)).toBe(0);
   });

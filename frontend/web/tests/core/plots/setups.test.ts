@@ -10,8 +10,8 @@ import { composeContent, hasOneValue, tracesOf } from "../../../src/core/plots/t
 import type { LaneSegments, Segment } from "../../../src/core/state/lanes";
 import { SampleRing } from "../../../src/core/stream/ring";
 
-describe("what the browser kept of the plots", () => {
-  it("comes back", () => {
+describe("the plots stored in the browser", () => {
+  it("are restored", () => {
     const stored = JSON.stringify([
       { preset: "torque", channels: ["torque2_nm"] },
       { preset: "own", channels: ["velocity_rad_per_s"] },
@@ -22,7 +22,7 @@ describe("what the browser kept of the plots", () => {
     ]);
   });
 
-  it("has the two axes of the phase plane as they were chosen, at first velocity error over error", () => {
+  it("keep the chosen axes of the phase plane, by default velocity error over error", () => {
     const stored = JSON.stringify([
       { preset: "phase", channels: ["torque1_nm", "deflection_rad"] },
     ]);
@@ -32,7 +32,7 @@ describe("what the browser kept of the plots", () => {
     expect(readSetups(odd)?.[0]?.channels).toEqual(atFirst);
   });
 
-  it("is taken as far as it makes sense", () => {
+  it("are restored as far as they are valid", () => {
     expect(readSetups(null)).toBeNull();
     expect(readSetups("{")).toBeNull();
     expect(readSetups('"position"')).toBeNull();
@@ -60,7 +60,7 @@ const segment = (
 const castOf = (...names: string[]): LaneSegments =>
   names.map((name, index) => [segment(index + 1, name)]);
 
-describe("the curves of a switch", () => {
+describe("the curves after an exchange of laws", () => {
   const swapped: LaneSegments = [
     [segment(1, "NDOBC", 0, 7), segment(2, "FL", 7)],
     [segment(2, "FL", 0, 7), segment(1, "NDOBC", 7)],
@@ -68,7 +68,7 @@ describe("the curves of a switch", () => {
   const curves = (cast: LaneSegments) =>
     tracesOf(composeContent(["position_error_rad"], cast), new Set(["position_error_rad"]), 2);
 
-  it("keep name and lineStyle of the law whose samples they are, past and present", () => {
+  it("keep name and line style of the law that produced the samples", () => {
     const message = curves(swapped).map(({ lane, from, to, label, colour }) => {
       return { lane, from, to, label, colour };
     });
@@ -80,7 +80,7 @@ describe("the curves of a switch", () => {
     expect(at(2, 7)).toMatchObject({ label: "NDOBC", colour: "blue" });
   });
 
-  it("stand once in the legend, and are hidden together", () => {
+  it("have one legend entry per law, which hides all their segments", () => {
     const entries = curves(swapped).filter(({ follows }) => follows === undefined);
     expect(entries.map(({ label }) => label)).toEqual(["FL", "NDOBC"]);
     for (const one of curves(swapped).filter(({ continues }) => continues)) {
@@ -89,7 +89,7 @@ describe("the curves of a switch", () => {
     }
   });
 
-  it("take only the samples of their piece", () => {
+  it("use only the samples of their segment", () => {
     const ring = new SampleRing(100, ["position_error_rad"], [1, 2]);
     const rows = Float32Array.from({ length: 20 }, (_, index) => index);
     ring.append(
@@ -103,7 +103,7 @@ describe("the curves of a switch", () => {
     }
   });
 
-  it("of a lane alone are in the lineStyles of its laws too, and named by them", () => {
+  it("of a single lane have line styles and names of its laws too", () => {
     const alone: LaneSegments = [[segment(1, "NDOBC", 0, 7), segment(2, "FL", 7)]];
     const traces = tracesOf(composeContent(["position_error_rad"], alone), new Set(), 1);
     expect(traces.map(({ label, colour }) => [label, colour])).toEqual([
@@ -112,7 +112,7 @@ describe("the curves of a switch", () => {
     ]);
   });
 
-  it("of a new lane begin where it began", () => {
+  it("of a new lane start when the lane was added", () => {
     const cast: LaneSegments = [[segment(1, "NDOBC")], [segment(2, "FL", 7)]];
     expect(curves(cast).find(({ lane }) => lane === 2)?.from).toBe(7);
   });
@@ -121,7 +121,7 @@ describe("the curves of a switch", () => {
 describe("the curves of a plot", () => {
   const disturbance = ["estimate_link_nm", "estimate_motor1_nm", "disturbance_link_nm"] as const;
 
-  it("have a value each, but the truth of several lanes, which differs from lane to lane", () => {
+  it("have one value each, except the true disturbances, which differ between lanes", () => {
     const channels = ["estimate_link_nm", "disturbance_link_nm"] as const;
     const valued = (cast: LaneSegments) => {
       const all = tracesOf(composeContent(channels, cast), new Set(channels), cast.length);
@@ -134,7 +134,7 @@ describe("the curves of a plot", () => {
     expect(valued([swapped])).toEqual(["NDOBC", "FL"]);
   });
 
-  it("leave out the estimate that a compared law does not use, not the truth of its lane", () => {
+  it("omit the estimate of a comparison law that does not use it, but not the true disturbance", () => {
     const channels = ["estimate_link_nm", "disturbance_link_nm"] as const;
     const drawn = (cast: LaneSegments) =>
       tracesOf(composeContent(channels, cast), new Set(channels), cast.length).map(
@@ -150,7 +150,7 @@ describe("the curves of a plot", () => {
     expect(drawn(joined)).toEqual(["estimate_link_nm 1", ...truths]);
   });
 
-  it("are a colour a channel for one lane, the truth dashed in the colour of its estimate", () => {
+  it("have one colour per channel for one lane, the true value dashed in the colour of its estimate", () => {
     const traces = tracesOf(composeContent(disturbance, castOf("NDOBC")), new Set(), 1);
     const [link, truth, motor] = traces;
     expect(traces).toHaveLength(3);
@@ -160,7 +160,7 @@ describe("the curves of a plot", () => {
     expect(motor?.colour).not.toBe(link?.colour);
   });
 
-  it("have one line style per lane, for the chosen quantities, distinguished by symbols", () => {
+  it("have one line style per lane, and symbols distinguish the selected quantities", () => {
     const lanes = ["NDOBC", "FL"];
     const cast = castOf(...lanes);
     const content = composeContent(["torque1_nm", "torque2_nm"], cast);
@@ -171,7 +171,7 @@ describe("the curves of a plot", () => {
     expect(both[0]?.sign).not.toBe(both[2]?.sign);
   });
 
-  it("are solid for the chosen law, also where it was a comparison before, dashed for others", () => {
+  it("are solid for the selected law, also while it was a comparison, and dashed for others", () => {
     const cast = [
       [segment(1, "NDOBC", 0, 7), segment(2, "FL", 7)],
       [segment(2, "FL", 0, 7), segment(1, "NDOBC", 7)],
@@ -189,7 +189,7 @@ describe("the curves of a plot", () => {
     ]);
   });
 
-  it("have a reference once, and a limit on both sides", () => {
+  it("show a reference once, and a limit on both sides", () => {
     const position = composeContent(["position_rad", "position_reference_rad"], castOf("A", "B"));
     expect(position.common).toHaveLength(1);
     const deflection = composeContent(["deflection_rad", "deflection_limit_rad"], castOf("A"));
@@ -197,25 +197,25 @@ describe("the curves of a plot", () => {
     expect(factors).toEqual([1, 1, -1]);
   });
 
-  it("never share a colour until all are in use", () => {
+  it("do not share a colour until all are in use", () => {
     const looks = shareColours(["blue", "blue", "blue", "green", "green", "blue"]);
     expect(new Set(looks.slice(0, 5).map(({ colour }) => colour)).size).toBe(5);
     expect(looks[5]?.dash).not.toEqual([]);
   });
 
-  it("have one unit a plot, and every channel stands under one", () => {
+  it("have one unit per plot, and every channel belongs to one unit", () => {
     const names = CHANNELS_BY_UNIT.flatMap(({ channels }) => channels);
     expect(new Set(names).size).toBe(names.length);
     expect(names).toHaveLength(28);
   });
 });
 
-describe("a plot as a drawing", () => {
+describe("a plot as SVG", () => {
   it("has ticks at round numbers", () => {
     expect(placeTicks({ from: -1.2, to: 4.1 }, 5)).toEqual([0, 2, 4]);
   });
 
-  it("has its words made safe and its gaps kept", () => {
+  it("has escaped texts and keeps its gaps", () => {
     const colours = new Proxy({}, { get: () => "#000" }) as Parameters<
       typeof drawSvg
     >[0]["colours"];

@@ -53,10 +53,10 @@ beforeAll(() => {
   );
 });
 
-describe("the numbers of an event", () => {
+describe("the metrics of an event", () => {
   const of = { ring, shown: BOTH, present: BOTH };
 
-  it("are those of the window that it began, as the table has them", () => {
+  it("are those of the window that it started, as in the table", () => {
     const ended = findStep(state, event(5000), 6, of);
     expect(ended.untilS).toBe(9);
     expect(ended.read(0)).toMatchObject({ peak: 0.0723, recoveryS: 0.21, missingS: 0 });
@@ -65,7 +65,7 @@ describe("the numbers of an event", () => {
     expect(going.read(1)?.peak).toBe(0.02);
   });
 
-  it("are each lane's own where lanes have been taken away since the plots stand still", () => {
+  it("keep their lane if lanes were removed while the plots are frozen", () => {
     const present: LaneSegments = [[segment(2, "FL")]];
     const later = {
       ...state,
@@ -76,7 +76,7 @@ describe("the numbers of an event", () => {
     expect(read(0)).toBeNull();
   });
 
-  it("are measured on the samples held where the event began no window", () => {
+  it("are computed from the frozen samples if the event started no window", () => {
     const { untilS, read } = findStep(state, event(5005), 6, of);
     expect(untilS).toBe(6);
     expect(read(0)).toMatchObject({ recoveryS: Number.NaN, missingS: 0 });
@@ -84,7 +84,7 @@ describe("the numbers of an event", () => {
     expect(read(0)?.rms).toBeCloseTo(0.0719, 6);
   });
 
-  it("are none where the beginning is held no more", () => {
+  it("are unknown if the start of the window is no longer stored", () => {
     expect(findStep(state, event(4005), 6, of).read(0)).toBeNull();
     expect(findStep(state, event(5105), 6, of).read(0)).toBeNull();
   });

@@ -34,7 +34,7 @@ afterEach(() => {
 });
 
 describe("the settings of an arm", () => {
-  it("are those of the chosen joint, with its actuator", () => {
+  it("are those of the selected joint, with its actuator", () => {
     expect(settingsOf(STATE).configuration.law).toBe("ndobc");
     chooseJoint("2");
     const { configuration, actuator } = settingsOf(STATE);
@@ -42,14 +42,14 @@ describe("the settings of an arm", () => {
     expect(configuration.arm).toBe(STATE.configuration.arm);
   });
 
-  it("of both joints may differ, part by part", () => {
+  it("may differ between the joints, part by part", () => {
     expect(areJointsDifferent(STATE, ["stiffness"])).toBe(false);
     expect(areJointsDifferent(STATE, ["law", "gains"])).toBe(true);
     chooseJoint("1");
     expect(areJointsDifferent(STATE, ["law"])).toBe(false);
   });
 
-  it("decide whose plots are shown", () => {
+  it("select the joint whose plots are shown", () => {
     expect(shownJoints.value).toBeNull();
     session.value = STATE;
     expect(shownJoints.value).toEqual([1, 2]);
@@ -62,12 +62,12 @@ it("compares with the lanes of the second arm", () => {
   expect(comparisonLanes(STATE).map(({ lane, id }) => [lane, id])).toEqual([[2, 3]]);
 });
 
-it("hangs its mass at the tip", () => {
+it("adds its mass at the tip", () => {
   expect(nextWeight(STATE)).toEqual({ kind: "tip_mass", mass_kg: 0.1 });
   const row = { load: { kind: "tip_mass", mass_kg: 1 } } as SessionState["loads"][number];
   expect(isWeight(STATE, row)).toBe(true);
 });
 
-it("an arm has one name, of both joints where their controllers differ", () => {
+it("the name of an arm includes both joints if their controllers differ", () => {
   expect(nameArms(STATE.lanes.map(({ name }) => name))).toEqual(["NDOBC, PD", "FL"]);
 });

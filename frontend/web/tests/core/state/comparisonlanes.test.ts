@@ -46,7 +46,7 @@ beforeEach(() => {
   });
 });
 
-it("the session's own law is added with a copy of the settings, another law without", async () => {
+it("the law of the session is added with a copy of its settings, another law without", async () => {
   const { laws } = await import("../../../src/core/state/laws");
   const { addLane } = await import("../../../src/core/state/commands");
   laws.value = [law("ndobc", { takes_gains: true }), law("fl_integral")];
@@ -60,7 +60,7 @@ it("the session's own law is added with a copy of the settings, another law with
   ]);
 });
 
-it("a controller is taken away by its lane, and a bench's twin is no comparison lane", async () => {
+it("a controller is removed by its lane, and the twin of a bench is no comparison lane", async () => {
   const { comparisonLanes } = await import("../../../src/core/state/lanes");
   const { removeLane } = await import("../../../src/core/state/commands");
   const comparisons = [{ law: "ndobc" }, { law: "fl" }, { law: "fl_integral", parameters: POLE }];
@@ -73,14 +73,14 @@ it("a controller is taken away by its lane, and a bench's twin is no comparison 
   expect(sent[0]?.body).toEqual({ comparisons: [{ law: "fl_integral", parameters: POLE }] });
 });
 
-it("only a lane without settings of its own changes places with the session's law", async () => {
+it("only a lane without its own settings is exchanged with the law of the session", async () => {
   const { comparisonLaws } = await import("../../../src/core/state/lanes");
   expect(comparisonLaws("fl", stateOf("ndobc", [{ law: "fl", gains: null }]))).toEqual(["ndobc"]);
   const own = stateOf("ndobc", [{ law: "fl", gains: GAINS } as unknown as Lane]);
   expect(comparisonLaws("fl", own)).toEqual([]);
 });
 
-it("a step back brings back what differs, lane by lane, and of those that went the tuned", async () => {
+it("undo restores the lanes that differ, and only the tuned ones of the removed lanes", async () => {
   const {
     restoringRequests: callsBack,
     designOf,
@@ -107,7 +107,7 @@ it("a step back brings back what differs, lane by lane, and of those that went t
   expect(isSame(designOf(before), designOf(plain))).toBe(false);
 });
 
-it("a tuned lane that was removed is brought back, and what it was before that after it", async () => {
+it("undo restores a removed tuned lane first and then its earlier settings", async () => {
   const { session } = await import("../../../src/core/state/session");
   const { steps, undo, watchDesign } = await import("../../../src/lab/design/history");
   const tuned = (pole: number) => ({ law: "fl", parameters: { position_pole_rad_per_s: pole } });
@@ -153,7 +153,7 @@ it("the comparison is switched on again with the last comparison lanes", async (
   ]);
 });
 
-it("laws are found by any of their words, and stand by whose estimate they act on", async () => {
+it("laws are found by any of their words and grouped by the estimate that they use", async () => {
   const { findLaws, groupLaws } = await import("../../../src/core/state/laws");
   const listed = [
     law("fl", { summary: "Cancels the model it knows" }),
@@ -170,7 +170,7 @@ it("laws are found by any of their words, and stand by whose estimate they act o
   ]);
 });
 
-it("all poles at one place give the coefficients of a power", async () => {
+it("equal poles give the coefficients of a power", async () => {
   const { coefficientsOf } = await import("../../../src/lab/design/poles");
   expect(coefficientsOf(4, 1)).toEqual([1, 4, 6, 4]);
   expect(coefficientsOf(2, 30)).toEqual([900, 60]);

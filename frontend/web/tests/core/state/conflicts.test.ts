@@ -63,15 +63,15 @@ beforeEach(() => {
 });
 afterEach(() => vi.unstubAllGlobals());
 
-describe("a setting that another person changes meanwhile", () => {
-  it("is sent with the revision that was seen, and what is no setting without one", async () => {
+describe("a setting that another user changes concurrently", () => {
+  it("is sent with the displayed revision, and other calls without a revision", async () => {
     const page = await load(server);
     expect(await page.set({ amplitude_rad: 0.5 })).toBe(true);
     await page.start();
     expect(server.asked).toEqual(['PUT /position "1.0"', "POST /start -"]);
   });
 
-  it("is refused with the value that it has now, which the page shows", async () => {
+  it("is rejected with the current value, which the page shows", async () => {
     const page = await load(server);
     server.change({ amplitude_rad: Math.PI / 4 });
     expect(await page.set({ frequency_hz: 0.5 })).toBe(false);
@@ -82,7 +82,7 @@ describe("a setting that another person changes meanwhile", () => {
     expect(server.held.configuration.position.frequency_hz).toBe(0.2);
   });
 
-  it("is sent again where that is wished, upon what the other has set", async () => {
+  it("is merged with the change of the other user if the user retries", async () => {
     const page = await load(server);
     server.change({ amplitude_rad: Math.PI / 4 });
     await page.set({ frequency_hz: 0.5 });
@@ -94,7 +94,7 @@ describe("a setting that another person changes meanwhile", () => {
     expect(await page.set({ frequency_hz: 0.4 }), "asked again each time").toBe(false);
   });
 
-  it("is sent whole where what the other has set has no such part", async () => {
+  it("is sent completely if the current value has another kind", async () => {
     const page = await load(server);
     const constant = { kind: "constant", position_rad: 1 };
     server.held = { ...stateAt("1.1"), ...{ configuration: { position: constant } } } as never;
@@ -103,7 +103,7 @@ describe("a setting that another person changes meanwhile", () => {
     expect(server.held.configuration.position).toMatchObject({ ...SINE, frequency_hz: 0.5 });
   });
 
-  it("is compared with what was seen when its draft was begun", async () => {
+  it("is compared with the value displayed when the draft was started", async () => {
     const page = await load(server);
     const begun = stateAt("1.0");
     server.change({ amplitude_rad: Math.PI / 4 });
@@ -114,7 +114,7 @@ describe("a setting that another person changes meanwhile", () => {
 });
 
 describe("a setting after a change of another setting", () => {
-  it("is sent once more under the new revision, without a message", async () => {
+  it("is sent again with the new revision, without a message", async () => {
     const page = await load(server);
     server.change({}, "fl");
     expect(await page.set({ amplitude_rad: 0.5 })).toBe(true);
@@ -126,14 +126,14 @@ describe("a setting after a change of another setting", () => {
     });
   });
 
-  it("is not taken for another person's where this page has set it itself", async () => {
+  it("is not attributed to another user if this page has set it", async () => {
     const page = await load(server);
     await page.set({ amplitude_rad: 0.5 });
     expect(await page.set({ amplitude_rad: 0.6 }, stateAt("1.0"))).toBe(true);
     expect(server.held.configuration.position.amplitude_rad).toBe(0.6);
   });
 
-  it("is reported after some tries if others keep changing settings", async () => {
+  it("is reported after several retries if other users keep changing settings", async () => {
     const page = await load(server);
     const answer = server.answer.bind(server);
     server.answer = (...asked) => {
@@ -146,8 +146,8 @@ describe("a setting after a change of another setting", () => {
   });
 });
 
-describe("a law that another person has set", () => {
-  it("is named", async () => {
+describe("a law that another user has set", () => {
+  it("is named in the message", async () => {
     await load(server);
     const { describeChange, isSame } = await import("../../../src/core/state/conflicts");
     const before = stateAt("1.0") as never;

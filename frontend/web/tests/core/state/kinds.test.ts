@@ -12,14 +12,14 @@ const FORM: FormField[] = [
   { parameter: { ...lag, name: "duration_s", high: 3600 }, first: 5 },
 ];
 
-describe("a form from a description", () => {
-  it("has angles in degrees, small numbers in thousandths, and nothing where there is no unit", () => {
+describe("a form generated from a description", () => {
+  it("shows angles in degrees, small numbers in thousandths, and no unit if there is none", () => {
     expect(quantityOfParameter(angle)).toMatchObject({ label: "Amplitude", unit: "deg" });
     expect(quantityOfParameter(lag)).toMatchObject({ unit: "ms", factor: 1000 });
     expect(quantityOfParameter(ratio)).toEqual({ label: "Breakaway", unit: "" });
   });
 
-  it("begins with the first values, on screen, and reads them in SI", () => {
+  it("starts with the default values in displayed units and returns SI", () => {
     const first = initialValues(FORM);
     expect(first).toEqual({ amplitude_rad: "10", duration_s: "5" });
     expect(parseForm(FORM, { ...first, amplitude_rad: "90" })).toEqual({
@@ -28,7 +28,7 @@ describe("a form from a description", () => {
     });
   });
 
-  it("is nothing while a number is missing or is none", () => {
+  it("is incomplete while a number is missing or invalid", () => {
     for (const wrong of [" ", "x"]) {
       expect(parseForm(FORM, { amplitude_rad: wrong, duration_s: "5" })).toBeNull();
     }

@@ -10,7 +10,7 @@ const batchAt = (tick: number, lanes: number[], values: number[]) => ({
   ...{ lanes, values: new Float32Array(values) },
 });
 
-it("a lane taken away by a script leaves each other one its samples under its name", async () => {
+it("the other lanes keep their samples and names if a script removes a lane", async () => {
   vi.stubGlobal("window", new EventTarget());
   vi.stubGlobal("document", { baseURI: "http://lab/" });
   vi.stubGlobal("location", { search: "" });

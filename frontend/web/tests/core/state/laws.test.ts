@@ -15,7 +15,7 @@ beforeEach(() => {
   vi.stubGlobal("location", { search: "" });
 });
 
-it("any number of laws: the comparison law is the first other one that works", async () => {
+it("the default comparison law is the first other usable one", async () => {
   const {
     laws,
     defaultComparisonLaw: otherLaw,
@@ -29,7 +29,7 @@ it("any number of laws: the comparison law is the first other one that works", a
   expect([titleOf("b"), titleOf("gone")]).toEqual(["B", "gone"]);
 });
 
-it("a parameter has a slider where both its ends are bounded", async () => {
+it("a parameter has a slider if it has both bounds", async () => {
   const { changedAt, rangeOf } = await import("../../../src/lab/panels/law");
   const { hasLongMeaning: isWordy } = await import("../../../src/core/state/laws");
   const row = { ...RATE, default: 2 };
@@ -44,7 +44,7 @@ it("a parameter has a slider where both its ends are bounded", async () => {
   expect(changedAt([1, 2, 3], 1, 5)).toEqual([1, 5, 3]);
 });
 
-it("Enter takes the law that is written out, or the first that is shown", async () => {
+it("Enter selects the law with that exact name, or else the first match", async () => {
   const { findLaws, pickLaw } = await import("../../../src/core/state/laws");
   const listed = [
     law("adrc", { summary: "observers" }),
@@ -58,7 +58,7 @@ it("Enter takes the law that is written out, or the first that is shown", async 
   ]);
 });
 
-it("a refused parameter has the name of its field, a lane's where all laws call it the same", async () => {
+it("a rejected parameter is named as its field, in a lane too if all laws name it the same", async () => {
   const { laws } = await import("../../../src/core/state/laws");
   const { explainViolation } = await import("../../../src/core/state/refusal");
   const message = (name: string) =>
@@ -88,7 +88,7 @@ it("a refused parameter has the name of its field, a lane's where all laws call 
   expect(message("lqi.gone")).toBe("as the server says");
 });
 
-it("a law that controls stands among the equations in its own words, the paper's once", async () => {
+it("an active law is listed with its own equation, and those of the paper once", async () => {
   const { equationsOf } = await import("../../../src/core/equations/equation");
   const printed = equationsOf("controller", []).length;
   const found = equationsOf("controller", [law("ndobc"), law("motor_pd", { title: "PD" })]);
@@ -97,7 +97,7 @@ it("a law that controls stands among the equations in its own words, the paper's
   expect(equationsOf("torque", [law("motor_pd")])).toEqual(equationsOf("torque", []));
 });
 
-it("runs are filtered by laws as the server calls them, and by the name of one that is not here", async () => {
+it("filters of runs show the titles of laws, and the names of those not installed", async () => {
   const { laws } = await import("../../../src/core/state/laws");
   const { nameValue } = await import("../../../src/runs/list/words");
   expect(nameValue("law", "motor_pd")).toBe("motor_pd");

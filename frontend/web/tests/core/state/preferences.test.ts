@@ -9,7 +9,7 @@ afterEach(() => {
 });
 
 describe("a name for control", () => {
-  it("is what the server takes", async () => {
+  it("satisfies the server's rules", async () => {
     stubBrowser();
     vi.stubGlobal("document", { documentElement: { dataset: {} } });
     const { defaultName, nameForControl } = await import("../../../src/core/state/preferences");

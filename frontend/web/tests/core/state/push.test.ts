@@ -46,7 +46,7 @@ describe("a push", () => {
     vi.useFakeTimers();
   });
 
-  it("is begun, changed and ended as one load", async () => {
+  it("is started, changed and ended as one load", async () => {
     linkPush.hold([1]);
     await vi.advanceTimersByTimeAsync(30);
     linkPush.hold([1.5]);
@@ -64,7 +64,7 @@ describe("a push", () => {
     expect(asked).toEqual(["tip_push 3 -4", "remove 7"]);
   });
 
-  it("that does not change is sent again before the server ends it", async () => {
+  it("is repeated without a change before the server ends it", async () => {
     linkPush.hold([1]);
     await vi.advanceTimersByTimeAsync(1000);
     linkPush.release();
@@ -73,7 +73,7 @@ describe("a push", () => {
     expect(asked.at(-1)).toBe("remove 7");
   });
 
-  it("that never pulled asks nothing", async () => {
+  it("sends nothing if it never pulled", async () => {
     linkPush.hold([0.01]);
     await vi.advanceTimersByTimeAsync(300);
     linkPush.release();
@@ -81,13 +81,13 @@ describe("a push", () => {
     expect(asked).toEqual([]);
   });
 
-  it("lasts as long on the wall however fast the session goes", () => {
+  it("lasts equally long in wall time at any speed of the session", () => {
     expect(holdDuration({ speed: 0.5, real_time_factor: 0.5 })).toBeCloseTo(0.4, 9);
     expect(holdDuration({ speed: "max", real_time_factor: 20 })).toBeCloseTo(16, 9);
     expect(holdDuration({ speed: "max", real_time_factor: 1e4 })).toBe(60);
   });
 
-  it("is sent when it begins, differs, or has been silent", () => {
+  it("is sent when it starts, changes, or has not been sent for a while", () => {
     expect(linkPush.isUpdateDue([0.04], null, 0)).toBe(false);
     expect(linkPush.isUpdateDue([0.06], null, 0)).toBe(true);
     expect(linkPush.isUpdateDue([1], [1.01], 100)).toBe(false);

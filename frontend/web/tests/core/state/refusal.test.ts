@@ -43,8 +43,8 @@ const LAG: Kinds = {
   ],
 };
 
-describe("a refusal on the page", () => {
-  it("has the name and the unit that the user typed", () => {
+describe("a rejection on the page", () => {
+  it("has the name and the unit of the field that the user edited", () => {
     const amplitude = violation({
       name: "amplitude_rad",
       value: (9999 * Math.PI) / 180,
@@ -69,7 +69,7 @@ describe("a refusal on the page", () => {
     );
   });
 
-  it("tells which of several of one name it is about", () => {
+  it("distinguishes fields with the same name", () => {
     const names = (path: string) => quantityOf(path)?.label;
     expect(names("bandwidth_rad_per_s[2]")).toContain("Motor 2");
     expect(names("actuator.link_inertia_kg_m2")).toBe("M link inertia, True");
@@ -80,7 +80,7 @@ describe("a refusal on the page", () => {
     expect(effectQuantityOf("noise.time_constant_s")).toBeNull();
   });
 
-  it("tells poles, not coefficients", () => {
+  it("names poles instead of coefficients", () => {
     const gains = violation({
       name: "position_coefficients",
       value: [1, 2, 3, 4],
@@ -92,12 +92,12 @@ describe("a refusal on the page", () => {
     );
   });
 
-  it("leaves what the page has no name for as the server says it", () => {
+  it("is the text of the server if the page has no name for the field", () => {
     expect(explainViolation(violation({ name: "comparisons[0].law" }))).toBe("as the server says");
     expect(quantityOf("toString")).toBeNull();
   });
 
-  it("knows every field by a name that is not the API's", () => {
+  it("has a display name for every field", () => {
     for (const [name, { label }] of Object.entries(QUANTITIES)) {
       expect(label, name).not.toContain("_");
       expect(label.length, name).toBeGreaterThan(2);

@@ -23,7 +23,7 @@ const KNOWN = stateAt(500, {
   ],
 });
 
-it("keeps what was over before, and takes what a message tells from its tick on", () => {
+it("keeps earlier events and applies a message from its tick on", () => {
   const progress = stateAt(700, {
     events: [{ tick: 600 }],
     ended_windows: [ended(400, 600)],
@@ -41,7 +41,7 @@ it("keeps what was over before, and takes what a message tells from its tick on"
   ]);
 });
 
-it("applies nothing twice that a response has already reported", () => {
+it("does not apply changes again that a response has already reported", () => {
   const progress = stateAt(500, {
     events: [{ tick: 400 }],
     ended_windows: [ended(100, 400)],
@@ -50,14 +50,14 @@ it("applies nothing twice that a response has already reported", () => {
   expect(mergeProgress(KNOWN, progress as Progress, 300)).toEqual(KNOWN);
 });
 
-it("forgets all where a message tells all, and what is over for a minute", () => {
+it("discards its events at a complete message, and windows that ended a minute ago", () => {
   const progress = stateAt(500, { events: [], ended_windows: [] });
   expect(mergeProgress(KNOWN, progress as Progress, 0).events).toEqual([]);
   const later = mergeProgress(KNOWN, stateAt(60_200, { ended_windows: [] }) as Progress, 60_000);
   expect(later.ended_windows.map(({ end_tick }) => end_tick)).toEqual([400]);
 });
 
-it("leaves alone what a message does not tell", () => {
+it("keeps the fields that a message omits", () => {
   const joined = mergeProgress(KNOWN, { run_number: 1, tick: 900 }, 800);
   expect(joined).toEqual({ ...KNOWN, tick: 900 });
 });

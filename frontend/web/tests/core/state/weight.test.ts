@@ -13,14 +13,14 @@ const emulated = { emulated: true } as BenchState;
 const stateOf = (bench: BenchState | null) =>
   ({ actuator: { name: "svsa" }, bench, configuration: { arm: null } }) as unknown as SessionState;
 
-it("hangs a mass on a bench, whose motors do not hold the paper's torques", () => {
+it("adds a mass on a bench, whose motors cannot produce the torques of the paper", () => {
   const states = [null, emulated, real].map(stateOf);
   expect(states.map(nextWeightForm)).toEqual(["paper", "mass", "mass"]);
   chosenForm.value = "paper";
   expect(states.map(nextWeightForm)).toEqual(["paper", "paper", "mass"]);
 });
 
-it("adds the default load of another actuator, and finds it again", () => {
+it("adds the default load of another actuator, and recognizes it", () => {
   const load = { kind: "constant", start_s: 5, torque_nm: [0.09, 0, 0] };
   const other = { ...load, torque_nm: [1, 0, 0] };
   const rows = [other, load].map((one, id) => ({ id, active: true, load: one }));

@@ -32,8 +32,8 @@ function stubSockets(): Socket[] {
   return sockets;
 }
 
-describe("a stream that is slow to come", () => {
-  it("is lost only once it was there", async () => {
+describe("a stream with a slow first connection", () => {
+  it("is reported as lost only after it was connected", async () => {
     vi.useFakeTimers();
     const sockets = stubSockets();
     const phases: string[] = [];

@@ -61,7 +61,7 @@ describe("a batch of the stream", () => {
     expect([...decoded.values]).toEqual([1, 2, 3, 4, 5, -6.5]);
   });
 
-  it("reads the lanes of each sample one after the other", () => {
+  it("reads the lanes of each sample in order", () => {
     const rows = [
       [1, 2, 10, 20],
       [3, 4, 30, 40],
@@ -71,7 +71,7 @@ describe("a batch of the stream", () => {
     expect([...decoded.values]).toEqual(rows.flat());
   });
 
-  it("is read where the greeting says that its fields are", () => {
+  it("is read with the field positions of the greeting", () => {
     const moved = {
       ...LAYOUT,
       header_bytes: 40,
@@ -100,7 +100,7 @@ describe("a batch of the stream", () => {
     ["another number of channels", batch([[1, 2]]), 3],
     ["another number of lanes", batch([[1, 2]], { lanes: 2 }), 2],
     ["a cut header", new ArrayBuffer(12), 1],
-  ])("refuses %s", (_, message, channels) => {
+  ])("rejects %s", (_, message, channels) => {
     expect(() => decode(message, channels)).toThrow(StreamFormatError);
   });
 });

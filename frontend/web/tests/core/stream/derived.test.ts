@@ -2,7 +2,7 @@ import { describe, expect, it } from "vitest";
 import type { Batch } from "../../../src/core/stream/decoder";
 import { SampleRing, sourcesOf } from "../../../src/core/stream/ring";
 
-describe("a channel that is derived", () => {
+describe("a derived channel", () => {
   const VELOCITIES = ["velocity_reference_rad_per_s", "velocity_rad_per_s"];
   const of = (tick: number, ...values: number[]): Batch => ({
     ...{ run: 1, firstTick: tick, stride: 1, count: 1, missed: 0, lanes: [1] },
@@ -13,7 +13,7 @@ describe("a channel that is derived", () => {
       ring.valueAt("velocity_error_rad_per_s", index),
     );
 
-  it("is the difference of its two, sample by sample, and no channel of the stream", () => {
+  it("is the difference of two channels, sample by sample, and is not streamed", () => {
     const ring = new SampleRing(10, VELOCITIES, [1]);
     ring.append(of(0, 3, 1), 1);
     ring.append(of(2, 1, 4), 1);
@@ -23,7 +23,7 @@ describe("a channel that is derived", () => {
     expect(sourcesOf("torque1_nm")).toEqual(["torque1_nm"]);
   });
 
-  it("comes and goes with them", () => {
+  it("is available if both channels are", () => {
     const ring = new SampleRing(10, VELOCITIES.slice(0, 1), [1]);
     ring.append(of(0, 3), 1);
     const held = ring.copy();

@@ -25,7 +25,7 @@ function contents(ring: SampleRing, first = 0, factor = 1) {
 }
 
 describe("SampleRing", () => {
-  it("may show a span while samples come, and not where it was over without one", () => {
+  it("shows a span while samples arrive, and not where no sample arrived", () => {
     const ring = new SampleRing(20, ["a", "b"], [1]);
     ring.append(batch(0, 2), 0.001);
     expect(mayHaveSamples(ring, { from: 1, to: 2 })).toBe(true);
@@ -34,7 +34,7 @@ describe("SampleRing", () => {
     expect(mayHaveSamples(ring, { from: 2.5, to: 3.002 })).toBe(true);
   });
 
-  it("gives back what was put in, with time from the ticks", () => {
+  it("returns the appended samples, with time computed from the ticks", () => {
     const ring = new SampleRing(10, ["a", "b"], [1]);
     ring.append(batch(1000, 3), 0.5);
     expect(contents(ring)).toEqual({
@@ -46,7 +46,7 @@ describe("SampleRing", () => {
     expect(ring.newest("b")).toBe(-1010);
   });
 
-  it("forgets the oldest, and stays in order over its end", () => {
+  it("discards the oldest samples, and stays in order at its end", () => {
     const ring = new SampleRing(4, ["a", "b"], [1]);
     ring.append(batch(0, 3), 1);
     ring.append(batch(15, 3), 1);
@@ -54,7 +54,7 @@ describe("SampleRing", () => {
     expect(contents(ring, 2).time).toEqual([20, 25]);
   });
 
-  it("takes the newest part of a batch larger than itself", () => {
+  it("keeps the newest part of a batch larger than itself", () => {
     const ring = new SampleRing(4, ["a", "b"], [1]);
     ring.append(batch(0, 9), 1);
     expect(contents(ring).a).toEqual([25, 30, 35, 40]);
@@ -69,7 +69,7 @@ describe("SampleRing", () => {
     expect(ring.lowerBound(99)).toBe(4);
   });
 
-  it("multiplies by a factor on the way out", () => {
+  it("scales the values that it returns", () => {
     const ring = new SampleRing(4, ["a", "b"], [1]);
     ring.append(batch(10, 1), 1);
     expect(contents(ring, 0, 0.5).a).toEqual([5]);
@@ -84,7 +84,7 @@ describe("SampleRing", () => {
     expect(ring.newest("a")).toBeNaN();
   });
 
-  it("shows a channel that is not streamed as no number", () => {
+  it("returns NaN for a channel that is not streamed", () => {
     const ring = new SampleRing(4, ["a", "b"], [1]);
     ring.append(batch(0, 2), 1);
     const out = new Float32Array(2);
@@ -107,7 +107,7 @@ function lane(ring: SampleRing, number: number): number[] {
 }
 
 describe("the lanes of a SampleRing", () => {
-  it("begin without a past, and go with theirs", () => {
+  it("start without a past, and are removed with their samples", () => {
     const ring = new SampleRing(10, ["a"], [1]);
     ring.append(tick(0, { 1: 1 }), 1);
     ring.setLanes([1, 2]);
@@ -125,7 +125,7 @@ describe("the lanes of a SampleRing", () => {
     expect(lane(ring, 2)).toEqual([Number.NaN, Number.NaN, Number.NaN, Number.NaN, 50]);
   });
 
-  it("have their own past where one between them is taken away, and none has that one's", () => {
+  it("keep their own past if a lane between them is removed", () => {
     const ring = new SampleRing(10, ["a"], [1, 2, 3]);
     ring.append(tick(0, { 1: 1, 2: 20, 3: 300 }), 1);
     ring.setLanes([1, 3]);
@@ -139,14 +139,14 @@ describe("the lanes of a SampleRing", () => {
     expect(ring.segment("a", 2, 0, 2)?.values.slice(0, 2)).toEqual(new Float32Array([300, 301]));
   });
 
-  it("are distinguished by the batch, if it was sent before lanes changed", () => {
+  it("are identified by the batch if it was sent before lanes changed", () => {
     const ring = new SampleRing(10, ["a"], [1, 2, 3]);
     ring.setLanes([1, 3, 4]);
     ring.append(tick(0, { 1: 1, 2: 20, 3: 300 }), 1);
     expect([1, 2, 3].map((number) => lane(ring, number))).toEqual([[1], [300], [Number.NaN]]);
   });
 
-  it("of a copy take channels that they lack from the same lane of the other", () => {
+  it("of a copy take missing channels from the same lane of the other ring", () => {
     const ring = new SampleRing(10, ["b"], [1, 2, 3]);
     ring.append(tick(0, { 1: 1, 2: 2, 3: 3 }), 1);
     const held = ring.copy();
@@ -157,7 +157,7 @@ describe("the lanes of a SampleRing", () => {
     expect([1, 2, 3].map((number) => lane(held, number))).toEqual([[10], [Number.NaN], [30]]);
   });
 
-  it("are no numbers where there are none", () => {
+  it("return NaN if they do not exist", () => {
     const ring = new SampleRing(10, ["a"], [1]);
     ring.append(tick(0, { 1: 1 }), 1);
     expect(lane(ring, 3)).toEqual([Number.NaN]);
@@ -165,7 +165,7 @@ describe("the lanes of a SampleRing", () => {
   });
 });
 
-describe("samples that were not sent", () => {
+describe("missed samples", () => {
   const row = (firstTick: number, stride: number, ...values: number[]): Batch => ({
     ...{ run: 1, firstTick, stride, count: values.length, missed: 0, lanes: [1] },
     values: new Float32Array(values),
@@ -191,7 +191,7 @@ describe("samples that were not sent", () => {
     for (const time of [9, 17, 18, 26]) expect(ring.valueAt("a", ring.nearestTo(time))).toBeNaN();
   });
 
-  it("are one where one is missing, and none where the rate changes", () => {
+  it("are a gap if a single one is missing, and no gap if the rate changes", () => {
     const ring = new SampleRing(20, ["a"], [1]);
     ring.append(row(0, 50, 1, 2), 1);
     ring.append(row(100, 5, 3), 1);
@@ -200,7 +200,7 @@ describe("samples that were not sent", () => {
     expect(rows(ring).map(([, value]) => value)).toEqual([1, 2, 3, 4, Number.NaN, 5]);
   });
 
-  it("are there again where the server sends them again", () => {
+  it("are filled in if the server sends them again", () => {
     const ring = new SampleRing(20, ["a"], [1]);
     ring.append(row(0, 5, 1, 2), 1);
     ring.append(row(20, 5, 5), 1);
@@ -218,7 +218,7 @@ describe("a SampleRing whose channels change", () => {
   const values = (ring: SampleRing, channel: string) =>
     Array.from({ length: ring.length }, (_, index) => ring.valueAt(channel, index));
 
-  it("keeps the past of what stays, and takes what is sent again", () => {
+  it("keeps the past of unchanged channels, and accepts samples that are sent again", () => {
     const ring = new SampleRing(10, ["a"], [1]);
     ring.append(one(0, 1, 2, 3, 4), 1);
     const next = ring.withChannels(["b", "a"]);
@@ -228,7 +228,7 @@ describe("a SampleRing whose channels change", () => {
     expect(values(ring, "a")).toEqual([1, 2, 3, 4]);
   });
 
-  it("gives a copy the channels it lacks, sample by sample of the same time", () => {
+  it("adds missing channels to a copy, matched by time", () => {
     const ring = new SampleRing(10, ["a"], [1]);
     ring.append(one(0, 1, 2, 3), 1);
     const held = ring.copy();
@@ -240,7 +240,7 @@ describe("a SampleRing whose channels change", () => {
     expect(values(held, "b")).toEqual([Number.NaN, 20, 30]);
   });
 
-  it("finds the nearest sample, and its number stays while older ones go", () => {
+  it("finds the nearest sample, whose number is stable while older ones are discarded", () => {
     const ring = new SampleRing(3, ["a"], [1]);
     ring.append(one(0, 0, 10, 20), 1);
     expect([-5, 0.4, 0.6, 9].map((time) => ring.nearestTo(time))).toEqual([0, 0, 1, 2]);
@@ -253,7 +253,7 @@ describe("a SampleRing whose channels change", () => {
 });
 
 describe("a reading", () => {
-  it("is of the nearest sample, and of none before the oldest and after the newest", () => {
+  it("is that of the nearest sample, and missing outside the record", () => {
     const ring = new SampleRing(10, ["a"], [1]);
     ring.append(batch(1000, 3), 0.01);
     const times = [9.9, 9.99, 10.04, 10.1, 10.11, 10.2];
@@ -261,7 +261,7 @@ describe("a reading", () => {
     expect(new SampleRing(3, []).sampleAt(0)).toBe(-1);
   });
 
-  it("of a channel that came later begins where it has numbers", () => {
+  it("of a channel added later starts at its first number", () => {
     const ring = new SampleRing(10, ["a"], [1]);
     ring.append(tick(0, { 1: 1 }), 1);
     ring.setLanes([1, 2]);

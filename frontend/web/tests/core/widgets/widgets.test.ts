@@ -13,12 +13,12 @@ describe("slider scale", () => {
     }
   });
 
-  it("finds a value again", () => {
+  it("inverts its values", () => {
     expect(valueAt(positionOf(30, even), even)).toBe(30);
     expect(valueAt(positionOf(60, byRatio), byRatio)).toBeCloseTo(60, 0);
   });
 
-  it("holds what lies beyond at the end", () => {
+  it("limits values beyond its ends", () => {
     expect(positionOf(500, byRatio)).toBe(STEPS);
     expect(positionOf(-500, even)).toBe(0);
   });

@@ -43,13 +43,13 @@ const INERTIA = "actuator.link_inertia_kg_m2";
 const SPRING = "actuator.spring_stiffness_n_per_m";
 
 describe("the form of an adversary", () => {
-  test("what it does not show is sent back as it came", () => {
+  test("fields that it does not show are sent back unchanged", () => {
     expect(writeForm(readForm(ADVERSARY))).toEqual(ADVERSARY);
     const other = { ...ADVERSARY, vary: [perturbed("gains.x", 0.5, 1.5)] };
     expect(writeForm(readForm(other))).toEqual(other);
   });
 
-  test("a model that is off is one number of per cent", () => {
+  test("a model error is one number in percent", () => {
     const off = {
       ...ADVERSARY,
       vary: [perturbed(INERTIA, 0.8, 1.2), perturbed(SPRING, 0.8, 1.2)],
@@ -66,7 +66,7 @@ describe("the form of an adversary", () => {
     expect(writeForm(readForm(uneven))).toEqual(uneven);
   });
 
-  test("a load of another kind has that kind's own range", () => {
+  test("a load of another kind has the range of that kind", () => {
     const form = readForm(ADVERSARY);
     const [pulse] = form.terms;
     const sine = writeForm({ ...form, terms: [changeKind(pulse as never, "sine")] }).terms[0];
@@ -74,7 +74,7 @@ describe("the form of an adversary", () => {
     expect(sine).not.toHaveProperty("duration_s");
   });
 
-  test("a changed family is called by what it may do", () => {
+  test("a changed family is named by its permitted loads", () => {
     const words = {
       kinds: { step: "Step", pulse: "Pulse", sine: "Sine" },
       bodies: { link: "link", motor1: "motor 1", motor2: "motor 2" },
@@ -94,7 +94,7 @@ const lawOf = (law: string, peak: number, faultS: number | null = null): LawTrac
   stiffness_error_nm_per_rad: [],
 });
 
-test("laws that held come first by their error, then the one that held on longest", () => {
+test("laws without a fault are sorted first by error, the others by the time of their fault", () => {
   const ranked = rankLaws([
     lawOf("early", 0.1, 2.5),
     lawOf("poor", 0.3),
@@ -104,7 +104,7 @@ test("laws that held come first by their error, then the one that held on longes
   expect(ranked.map(({ law }) => law)).toEqual(["good", "poor", "late", "early"]);
 });
 
-test("the picture begins a second before the first load, or where the run does", () => {
+test("the picture starts a second before the first load, or at the start of the run", () => {
   const time = [0, 1, 2, 9];
   const load = (start: number) => ({ kind: "step", start_s: start });
   expect(spanOf({ loads: [load(5), load(3)] } as unknown as Scenario, time)).toEqual({
@@ -115,14 +115,14 @@ test("the picture begins a second before the first load, or where the run does",
   expect(spanOf({} as Scenario, time)).toEqual({ from: 0, to: 9 });
 });
 
-describe("what is looked at", () => {
+describe("the displayed search or scenario", () => {
   const at = (more: object) => ({ kind: "falsifier", search: "", scenario: "", laws: [], ...more });
   beforeEach(() => {
     search.value = null;
     kept.value = null;
   });
 
-  test("a search and a scenario have an address, with the laws to run", () => {
+  test("has an address with the laws to run", () => {
     for (const [address, more] of [
       ["?falsifier=all", {}],
       ["?falsifier=3f2a", { search: "3f2a" }],
@@ -137,7 +137,7 @@ describe("what is looked at", () => {
     expect(writePlace({ kind: "lab" }, "?falsifier=all&scenario=x&laws=a")).toBe("");
   });
 
-  test("of a search that goes on the worst and the one law; of one that ended the simplest", () => {
+  test("is the worst one of a running search with its law, and the simplest one of a finished search", () => {
     place.value = readPlace("?falsifier=3f2a");
     const found = (law: string) => ({ found: { law } });
     search.value = { status: "running", worst: found("fl"), scenario: null } as unknown as Search;
@@ -150,7 +150,7 @@ describe("what is looked at", () => {
     expect(baselinesOf("ndobc")).toEqual(["ndobc", "fl"]);
   });
 
-  test("a scenario that is kept is found by its name, whatever was searched before", () => {
+  test("is a saved scenario if its name is given, after any search", () => {
     place.value = readPlace("?falsifier=all&scenario=impulse");
     expect(scenario.value).toBeNull();
     const one = { title: "An impulse", found: null };
@@ -159,7 +159,7 @@ describe("what is looked at", () => {
     expect(laws.value).toEqual(["ndobc", "fl"]);
   });
 
-  test("the example is shown where the address names nothing, until there is a search", () => {
+  test("is the example if the address names nothing, until there is a search", () => {
     place.value = readPlace("?falsifier=all");
     kept.value = searches.value = search.value = null;
     expect(chosen.value).toMatchObject({ search: "", scenario: "" });
@@ -175,17 +175,17 @@ describe("what is looked at", () => {
   });
 });
 
-describe("how a job stands", () => {
+describe("the status of a job", () => {
   const job = (more: object) =>
     ({ status: "running", rate_per_s: 80, left_s: 75, problem: null, ...more }) as never;
-  test("rate and time left while it runs, compiling until there is a rate", () => {
+  test("shows rate and time left while it runs, and compiling until there is a rate", () => {
     expect(describeJob(job({}))).toEqual(["running", "80 runs/s", "1:15 left"]);
     expect(describeJob(job({ rate_per_s: null, left_s: null }))).toEqual([
       "running",
       "compiling …",
     ]);
   });
-  test("nothing of what is done, and why of what failed", () => {
+  test("is empty for a finished job, and the reason for a failed one", () => {
     expect(describeJob(job({ status: "done" }))).toEqual([]);
     expect(describeJob(job({ status: "failed", problem: "It needs none." }))).toEqual([
       "failed",

@@ -52,7 +52,7 @@ const RESULTS = {
 } as unknown as Results;
 
 describe("the ranking's table", () => {
-  test("a row without a number comes last, whichever way a column is sorted", () => {
+  test("a row without a number is last in both sorting directions", () => {
     const order = (key: string, isDown: boolean) =>
       sortRows(RESULTS, key, isDown).map(({ key: row }) => row);
     expect(order("mass", false)).toEqual(["c", "a", "b"]);
@@ -78,7 +78,7 @@ describe("the ranking's table", () => {
 });
 
 describe("the plot of errors", () => {
-  test("a point has the medians of family A, and a median that is a fault has none", () => {
+  test("a point has the medians of family A, and is omitted if a median is a fault", () => {
     expect(readPoint(rowOf("a", 1, 1, Math.PI / 180))).toMatchObject({
       position: 1,
       stiffness: 0.5,
@@ -87,7 +87,7 @@ describe("the plot of errors", () => {
     expect(readPoint(rowOf("a", 1, 1, null))).toBeNull();
   });
 
-  test("equal ratios are equally long, and powers of ten are marked", () => {
+  test("equal ratios have equal lengths, and powers of ten are marked", () => {
     const { place, ticks } = scaleLog([0.05, 5]);
     expect(place(0.5) - place(0.05)).toBeCloseTo(place(5) - place(0.5));
     expect(ticks.map((tick) => tick.toPrecision(1))).toEqual(["0.1", "1"]);
@@ -100,7 +100,7 @@ test("the ranking has an address", () => {
   expect(writePlace({ kind: "lab" }, "?ranking=all")).toBe("");
 });
 
-test("a DOI at the end of a citation is what is linked", () => {
+test("the DOI of a citation is a link", () => {
   const said = 'D. Q. Mayne, "Constrained model predictive control", Automatica 36(6), 2000, ';
   const doi = "10.1016/S0005-1098(99)00214-9";
   expect(splitSource(`${said}doi:${doi}`)).toEqual({ said, doi });

@@ -26,7 +26,7 @@ beforeEach(() => {
 });
 afterEach(() => vi.unstubAllGlobals());
 
-it("a deleted study is left, and the list is reloaded", async () => {
+it("a deleted study is closed, and the list is reloaded", async () => {
   const studies = await load();
   expect(studies.chosenName.value).toBe("mine");
   expect(await studies.remove("mine")).toBe(true);
@@ -35,7 +35,7 @@ it("a deleted study is left, and the list is reloaded", async () => {
   expect(studies.isBusy.value).toBe("");
 });
 
-it("without a name in the address the newest study is shown, or the example", async () => {
+it("without a name in the address the newest study or the example is shown", async () => {
   const studies = await load();
   const { place } = await import("../../../src/runs/list/place");
   place.value = { kind: "studies", study: "", look: {} };
@@ -46,7 +46,7 @@ it("without a name in the address the newest study is shown, or the example", as
   expect(place.value).toMatchObject({ study: "example", look: { law: "fl" } });
 });
 
-it("one that is not deleted stays where it is, and why is said", async () => {
+it("a study whose deletion fails stays open, with the reason", async () => {
   const studies = await load();
   refusal = "Study mine is being run by another process.";
   expect(await studies.remove("mine")).toBe(false);

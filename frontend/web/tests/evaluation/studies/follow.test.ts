@@ -25,7 +25,7 @@ const look = (study: string) => {
   return follow(study);
 };
 
-test("the shares of a study that is left before they are worked out stand under no other", async () => {
+test("shares that arrive after their study was closed are not shown for another study", async () => {
   let arrive: (shares: object[]) => void = () => undefined;
   for (const call of Object.values(api)) call.mockRejectedValue(new Error("not asked for here"));
   api.readStudy.mockImplementation(async (name: string) => ended(name));

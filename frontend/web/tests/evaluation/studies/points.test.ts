@@ -34,8 +34,8 @@ function pack(header: object, columns: number[][]): ArrayBuffer {
   return packed;
 }
 
-describe("rows as they are sent", () => {
-  it("are columns of numbers, of names with their labels", () => {
+describe("received rows", () => {
+  it("are columns of numbers, or of names with their labels", () => {
     const columns = [{ name: "row" }, { name: "law", labels: ["ndobc", "fl"] }];
     const rows = unpackRows(
       pack({ rows: 3, total: 9, columns }, [
@@ -51,12 +51,12 @@ describe("rows as they are sent", () => {
 });
 
 describe("the brush", () => {
-  it("holds what lies in it with its edges, and everything without one", () => {
+  it("contains the points inside and on its edges, and all points if there is no brush", () => {
     const [x, y] = [numbers(0, 1, 2, 3), numbers(5, 6, Number.NaN, 8)];
     expect([...markBrushed(x, y, { x: [1, 3], y: [6, 8] })]).toEqual([0, 1, 0, 1]);
     expect([...markBrushed(x, y, null)]).toEqual([1, 1, 1, 1]);
   });
-  it("is in the address and comes back from there, wrong ones do not", () => {
+  it("is written to the address and read back, and an invalid one is ignored", () => {
     const brush = { plane: "t", x: [1.5, 2], y: [-0.25, 1e-5] } as const;
     expect(readBrush(writeBrush(brush))).toEqual(brush);
     for (const wrong of ["", "s", "s:1,2,3", "q:1,2,3,4", "s:1,2,x,4", "s:1,2,3,4,5"]) {
@@ -66,14 +66,14 @@ describe("the brush", () => {
 });
 
 describe("a dot", () => {
-  it("is found nearest to the pointer on the screen, among those that are shown", () => {
+  it("is found nearest to the pointer on the screen, among the displayed ones", () => {
     const [x, y] = [numbers(0, 1, 1.1), numbers(0, 1, 1)];
     const place = (at: number, height: number) => [100 * at, 100 * height] as const;
     expect(findNearest(x, y, all(3), place, [104, 100], 14)).toBe(1);
     expect(findNearest(x, y, Uint8Array.of(1, 0, 1), place, [104, 100], 14)).toBe(2);
     expect(findNearest(x, y, all(3), place, [50, 50], 14)).toBeNull();
   });
-  it("of a name stands within its place, the same whenever it is drawn", () => {
+  it("of a name is inside its place, which is the same in every drawing", () => {
     const spread = spreadNames(numbers(0, 0, 1, 1));
     expect([...spread].map(Math.round).map(Math.abs)).toEqual([0, 0, 1, 1]);
     expect(spreadNames(numbers(0, 0, 1, 1))).toEqual(spread);
@@ -84,7 +84,7 @@ describe("a dot", () => {
 });
 
 describe("scales", () => {
-  it("hold all values, by ratios only where all are above zero", () => {
+  it("contain all values, and are logarithmic only if all are positive", () => {
     const { span, isLog } = scaleOf(numbers(0.01, 100, Number.NaN), true);
     expect(isLog).toBe(true);
     expect(span[0]).toBeLessThan(0.01);
@@ -98,7 +98,7 @@ describe("scales", () => {
 });
 
 describe("the map", () => {
-  it("has a cell for each value of a grid, bins of one width for what was drawn", () => {
+  it("has one cell per grid value, and bins of equal width for sampled values", () => {
     const grid = numbers(...Array.from({ length: 9 }, (_, at) => at % 3));
     expect(cutBins(grid, false)).toEqual([-0.5, 0.5, 1.5, 2.5]);
     const ratios = numbers(...Array.from({ length: 9 }, (_, at) => 10 ** (at % 3)));
@@ -108,12 +108,12 @@ describe("the map", () => {
     const drawn = numbers(0, 1, 2, 4);
     expect(cutBins(drawn, false, 4)).toEqual([0, 1, 2, 3, 4]);
   });
-  it("puts a value on an edge above it, and the greatest into the last bin", () => {
+  it("counts a value on an edge in the bin above it, and the greatest in the last bin", () => {
     expect([-1, 0, 1, 3.9, 4, 5, Number.NaN].map((at) => findBin([0, 1, 2, 4], at))).toEqual([
       -1, 0, 1, 2, 2, -1, -1,
     ]);
   });
-  it("counts the runs that are shown, and of them those that succeeded", () => {
+  it("counts the displayed runs and the successful ones among them", () => {
     const edges = [
       [0, 1, 2],
       [0, 1],
@@ -126,8 +126,8 @@ describe("the map", () => {
   });
 });
 
-describe("what is said of many runs", () => {
-  it("counts a run that ended in a fault below no value", () => {
+describe("the summary of many runs", () => {
+  it("counts a run that ended in a fault as worse than any value", () => {
     const values = numbers(1, 2, 3, 0.5, Number.NaN);
     const ended = Uint8Array.of(0, 0, 0, 1, 0);
     expect(distribute(values, ended, all(5), [0.9, 1, 2.5, 9])).toEqual([0, 20, 40, 60]);
@@ -136,7 +136,7 @@ describe("what is said of many runs", () => {
 });
 
 describe("a share in percent", () => {
-  it("reads 100 or 0 where it is, and never where it is not", () => {
+  it("is 100 or 0 only if it is exactly that", () => {
     expect(formatPercents([1, 0.9999961585, 1])).toEqual(["100.0000", "99.9996", "100.0000"]);
     expect(formatPercents([0, 0, 3.8414e-6])).toEqual(["0.0000", "0.0000", "0.0004"]);
     expect(formatPercents([0.999999, 0.9999943351, 0.9999998235])).toEqual([
@@ -146,13 +146,13 @@ describe("a share in percent", () => {
     ]);
     expect(formatPercents([0.8, 0.4901625, 0.9433178])).toEqual(["80.0", "49.0", "94.3"]);
   });
-  it("has an interval that is none of one point", () => {
+  it("has no interval of zero width", () => {
     const [, low, high] = formatPercents([0.5, 0.49996901, 0.50003099]);
     expect([low, high]).toEqual(["49.997", "50.003"]);
   });
 });
 
-describe("what a study is first seen by", () => {
+describe("the first plot of a study", () => {
   const column = (name: string, role: "row" | "varied" | "outcome" | "metric") => ({
     name,
     label: name,
@@ -161,7 +161,7 @@ describe("what a study is first seen by", () => {
     is_text: false,
     is_log: false,
   });
-  it("is its first two settings, and the error over the first", () => {
+  it("has the first two settings as axes, and the error over the first", () => {
     const metrics = [column("peak", "metric"), column("rms_position_error_rad", "metric")];
     const varied = [column("load", "varied"), column("inertia", "varied")];
     expect(chooseAxes([column("row", "row"), ...varied, ...metrics])).toEqual({
@@ -173,7 +173,7 @@ describe("what a study is first seen by", () => {
     });
     expect(chooseAxes(metrics)).toMatchObject({ sx: "law", sy: "rms_position_error_rad" });
   });
-  it("is read in degrees", () => {
+  it("is in degrees", () => {
     expect(factorOf("rad")).toBeCloseTo(57.29578, 5);
     expect([shownUnit("rad·s"), shownUnit("N·m/rad"), factorOf("N·m/rad")]).toEqual([
       "°·s",

@@ -26,7 +26,7 @@ beforeEach(() => {
 });
 afterEach(() => vi.unstubAllGlobals());
 
-it("shares that are shown together are asked for together, and each once", async () => {
+it("shares that are shown together are requested together, and each once", async () => {
   const { shareOf } = await load();
   const seen: unknown[] = [];
   const stop = effect(() => {
@@ -39,14 +39,14 @@ it("shares that are shown together are asked for together, and each once", async
   stop();
 });
 
-it("many shares are asked for in parts that an address has room for", async () => {
+it("many shares are requested in parts that fit into an address", async () => {
   const { shareOf } = await load();
   for (let count = 0; count < 450; count++) shareOf(count, 1000);
   await vi.waitFor(() => expect(shareOf(449, 1000)).not.toBeNull());
   expect(asked.map((query) => query.split("counts=").length - 1)).toEqual([200, 200, 50]);
 });
 
-it("a share that could not be had is asked for again when it is shown again", async () => {
+it("a share that failed is requested again when it is shown again", async () => {
   const { shareOf } = await load();
   isDown = true;
   shareOf(1, 2);

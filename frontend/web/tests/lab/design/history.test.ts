@@ -64,7 +64,7 @@ async function back(to: SessionState, from: SessionState) {
   return sent.filter(([method]) => method.toLowerCase() !== "get");
 }
 
-it("a law, an effect and a reference are taken back", async () => {
+it("undo restores a law, an effect and a reference", async () => {
   const before = stateOf({});
   const after = stateOf({
     ...{ law: "fl", effects: { friction: { coulomb_nm: 0.1 } } },
@@ -78,7 +78,7 @@ it("a law, an effect and a reference are taken back", async () => {
   ]);
 });
 
-it("a load that was added is removed, and one that was removed is added now", async () => {
+it("undo removes an added load, and adds a removed one now", async () => {
   const calls = await back(stateOf({}, [row(1, "paper")]), stateOf({}, [row(2, "mass")]));
   expect(calls.map(([method, path, body]) => [method.toLowerCase(), path, body])).toEqual([
     ["post", "/loads", { kind: "paper", start_s: null }],
@@ -86,7 +86,7 @@ it("a load that was added is removed, and one that was removed is added now", as
   ]);
 });
 
-it("of two equal loads one is removed", async () => {
+it("undo removes one of two equal loads", async () => {
   const calls = await back(
     stateOf({}, [row(1, "mass")]),
     stateOf({}, [row(1, "mass"), row(2, "mass")]),
@@ -94,7 +94,7 @@ it("of two equal loads one is removed", async () => {
   expect(calls.map(([, path]) => path)).toEqual(["/loads/2"]);
 });
 
-it("a pulse that ended, a load of the run before and one hung by hand are no steps", async () => {
+it("an ended pulse, a load of the previous run and a manual load are no steps", async () => {
   const { designOf, isSame } = await import("../../../src/lab/design/history");
   const alike = (one: SessionState, other: SessionState) => isSame(designOf(one), designOf(other));
   expect(alike(stateOf({}, [row(1, "pulse", 2)]), stateOf({}))).toBe(true);
@@ -104,7 +104,7 @@ it("a pulse that ended, a load of the run before and one hung by hand are no ste
   expect(alike(stateOf({}, [row(1, "mass")]), stateOf({}))).toBe(false);
 });
 
-it("the motion of an identification is no step: it brings back what it replaced", async () => {
+it("the motion of an identification is no step, because the reference is restored", async () => {
   const { steps, watchDesign } = await import("../../../src/lab/design/history");
   const { session } = await import("../../../src/core/state/session");
   watchDesign();
@@ -128,7 +128,7 @@ function armOf(second: object, parts: object = {}, loads: Row[] = []): SessionSt
   );
 }
 
-it("each joint of an arm has its settings back, and the loads on it", async () => {
+it("undo restores the settings of each joint of an arm, and the loads on it", async () => {
   const load = {
     ...row(1, "constant"),
     joint: 2,
@@ -145,7 +145,7 @@ it("each joint of an arm has its settings back, and the loads on it", async () =
   ]);
 });
 
-it("a joint has its reference back while the tip has none", async () => {
+it("the reference of a joint is restored while the tip has none", async () => {
   const tip = { kind: "ellipse" };
   const plain = armOf({});
   const led = armOf({ position: MOTION }, { tip });

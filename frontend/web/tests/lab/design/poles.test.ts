@@ -21,7 +21,7 @@ const MIXED = [
 ];
 
 describe("poles from the server", () => {
-  it("sweeps the dust around a multiple root onto the axis", () => {
+  it("moves numerical scatter around a multiple root onto the axis", () => {
     const dust = [
       { re: -60.01, im: 0.01 },
       { re: -60.01, im: -0.01 },
@@ -48,7 +48,7 @@ describe("poles from the server", () => {
 describe("a verdict", () => {
   const found = (verdict: string, reasons: object[]) => ({ verdict, reasons }) as never;
 
-  it("is good only where nothing goes beyond a limit, however shortly", () => {
+  it("is good only if no limit is exceeded at any time", () => {
     expect(verdictOf(found("ok", []))).toBe("ok");
     expect(verdictOf(found("ok", [{ kind: "note", code: "saturation" }]))).toBe("note");
     expect(verdictOf(found("warn", [{ kind: "warn" }]))).toBe("warn");
@@ -56,33 +56,33 @@ describe("a verdict", () => {
 });
 
 describe("moving a pole", () => {
-  it("along the axis moves it alone", () => {
+  it("along the axis moves that pole only", () => {
     expect(movePole(allAt(4, 60), 3, { re: -90, im: 2 })).toEqual([
       ...allAt(3, 60),
       { re: -90, im: 0 },
     ]);
   });
 
-  it("off the axis takes the nearest real one along as its conjugate", () => {
+  it("off the axis makes the nearest real pole its conjugate", () => {
     expect(movePole(MIXED, 0, { re: -70, im: 25 }).slice(0, 2)).toEqual([
       { re: -70, im: 25 },
       { re: -70, im: -25 },
     ]);
   });
 
-  it("moves a pair together, onto the axis too", () => {
+  it("moves both poles of a pair, onto the axis too", () => {
     expect(movePole(MIXED, 3, { re: -30, im: -50 })[2]).toEqual({ re: -30, im: 50 });
     expect(movePole(MIXED, 2, { re: -45, im: 1 }).slice(2)).toEqual(allAt(2, 45));
   });
 
-  it("keeps within the plane, and real where no partner is left", () => {
+  it("keeps within the plane, and on the axis if there is no partner", () => {
     expect(movePole(MIXED, 0, { re: -900, im: 0 })[0]?.re).toBe(MIN_RE);
     const lonely = [{ re: -60, im: 0 }, ...MIXED.slice(2)];
     expect(partnerOf(lonely, 0)).toBe(-1);
     expect(movePole(lonely, 0, { re: -60, im: 50 })[0]).toEqual({ re: -60, im: 0 });
   });
 
-  it("by keys leaves the axis at once and comes back", () => {
+  it("by keys leaves the axis at once and returns to it", () => {
     const off = stepPole(allAt(2, 40), 0, 0, 1);
     expect(off[0]?.im).toBeGreaterThan(0);
     expect(off[1]?.im).toBe(-(off[0]?.im as number));
@@ -90,22 +90,22 @@ describe("moving a pole", () => {
   });
 });
 
-describe("words and numbers of poles", () => {
-  it("takes the mean size as the bandwidth", () => {
+describe("text and numbers of poles", () => {
+  it("use the mean magnitude as the bandwidth", () => {
     expect(bandwidthOf(allAt(4, 60))).toBeCloseTo(60, 9);
     expect(bandwidthOf(MIXED) ** 4).toBeCloseTo(60 * 80 * 2500, 3);
     expect(areTogether(allAt(4, 60))).toBe(true);
     expect(areTogether(MIXED)).toBe(false);
   });
 
-  it("says them as they are written", () => {
+  it("are written in the usual notation", () => {
     expect(describePoles(allAt(4, 60))).toBe("−60 ×4");
     expect(describePoles(MIXED)).toBe("−60, −80, −40 ± 30j");
     expect(describePole({ re: -40, im: -30 })).toBe("−40 − 30j");
     expect(countPlaces(allAt(4, 60))).toEqual([{ pole: { re: -60, im: 0 }, count: 4 }]);
   });
 
-  it("sends a real one as a number and another as a pair", () => {
+  it("are sent as a number for a real pole and as a pair for a complex one", () => {
     expect(MIXED.map(toRequest)).toEqual([-60, -80, [-40, 30], [-40, -30]]);
   });
 });

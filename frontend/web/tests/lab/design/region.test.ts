@@ -26,7 +26,7 @@ beforeEach(() => {
 
 afterEach(() => vi.doUnmock("../../../src/core/api/design"));
 
-it("a map is asked for part by part, until it is full", async () => {
+it("a map is requested part by part, until it is complete", async () => {
   const {
     outcomes,
     computeRegion: fillRegion,
@@ -44,7 +44,7 @@ it("a map is asked for part by part, until it is full", async () => {
   expect(isFilling.value).toBe(false);
 });
 
-it("a map that is left asks for nothing more, and takes no answer that comes later", async () => {
+it("a closed map requests no further part and ignores a later answer", async () => {
   const {
     outcomes,
     computeRegion: fillRegion,
@@ -63,7 +63,7 @@ it("a map that is left asks for nothing more, and takes no answer that comes lat
   expect([asked.length, outcomes.value.length, isFilling.value]).toEqual([1, 0, false]);
 });
 
-it("reports why it cannot be filled", async () => {
+it("reports why the map cannot be computed", async () => {
   const {
     computeRegion: fillRegion,
     isComputing: isFilling,

@@ -17,7 +17,7 @@ const find = (key: string, focus: Focus = "free", change: Partial<KeyPress> = {}
   findCommand(press(key, change), focus, isOn);
 
 describe("keys", () => {
-  it("stop at once wherever the focus is, and with single keys off", () => {
+  it("stop the session wherever the focus is, and with single keys disabled", () => {
     for (const focus of ["free", "control", "writing"] as const) {
       expect(find("Escape", focus, { shiftKey: true }, false)).toBe("stop");
       expect(find("Escape", focus, { shiftKey: true, ctrlKey: true })).toBe("stop");
@@ -29,7 +29,7 @@ describe("keys", () => {
     expect(commands).toEqual(["run", "record", "load", "compare", "help", "close", null]);
   });
 
-  it("are left to a field, to a control, to the browser, and when held down", () => {
+  it("are ignored in a field, in a control, by the browser, and when held down", () => {
     for (const key of [" ", "r", "?", "Escape"]) expect(find(key, "writing")).toBeNull();
     expect(find(" ", "control")).toBeNull();
     expect(find("r", "control")).toBe("record");
@@ -37,7 +37,7 @@ describe("keys", () => {
     expect(find("l", "free", { repeat: true })).toBeNull();
   });
 
-  it("are left to an open menu of laws, whatever has the focus", () => {
+  it("are ignored while a menu of laws is open", () => {
     const button = (menu: object | null) =>
       ({
         closest: () => null,
@@ -48,7 +48,7 @@ describe("keys", () => {
     expect(focusOf(button(null))).toBe("free");
   });
 
-  it("hold a switch, and release it where a release might not be heard", () => {
+  it("hold the switch, and release it if a key release could be missed", () => {
     expect(find("d")).toBe("hold");
     expect(find("d", "free", { repeat: true })).toBeNull();
     expect(find("d", "free", {}, false)).toBeNull();
@@ -57,7 +57,7 @@ describe("keys", () => {
     expect(endsHold(press("Meta", { metaKey: true }), "free")).toBe(true);
   });
 
-  it("can be switched off but for closing the help", () => {
+  it("can be disabled except for closing the help", () => {
     expect(find("r", "free", {}, false)).toBeNull();
     expect(find("Escape", "free", {}, false)).toBe("close");
   });

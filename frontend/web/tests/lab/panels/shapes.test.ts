@@ -7,7 +7,7 @@ describe("steps", () => {
     expect(writeLevels(-20, 20, 0.7, 3)).toBe("0, -20\n0.7, 20\n1.4, -20\n2.1, 20");
   });
 
-  it("are what the list says, in SI, however its numbers are kept apart", () => {
+  it("are the numbers of the list in SI, with any separator", () => {
     expect(readLevels("position", " 0, 0\n2 180\n\n4.5;-90\n")).toEqual({
       kind: "steps",
       time_s: [0, 2, 4.5],
@@ -18,7 +18,7 @@ describe("steps", () => {
     });
   });
 
-  it("are refused by the line that is none, and by their number", () => {
+  it("are rejected with the invalid line, or by their number", () => {
     expect(() => readLevels("position", "0, 0\n1, two\n")).toThrow("Line 2 is “1, two”");
     expect(() => readLevels("position", "0, 0\n\n3")).toThrow("Line 3 is “3”");
     expect(() => readLevels("position", "0, 0, 1")).toThrow("a time and a level");
@@ -27,12 +27,12 @@ describe("steps", () => {
   });
 });
 
-describe("the first steps", () => {
+describe("the default steps", () => {
   const limits = { stiffness_min_nm_per_rad: 0.2, stiffness_max_nm_per_rad: 15 };
   const begin = (stiffness: object) =>
     firstSteps("stiffness", { stiffness, limits } as unknown as Configuration);
 
-  it("begin at the present stiffness and stay in the actuator's range", () => {
+  it("start at the current stiffness and stay in the range of the actuator", () => {
     const at = (nm: number) => begin({ kind: "constant", stiffness_nm_per_rad: nm });
     expect(at(4)).toMatchObject({ low: "4", high: "8" });
     expect(at(9)).toMatchObject({ low: "9", high: "15" });
@@ -40,12 +40,12 @@ describe("the first steps", () => {
   });
 });
 
-describe("the picture before", () => {
-  it("has the greatest on top and time to the right", () => {
+describe("the preview", () => {
+  it("has the maximum at the top and time to the right", () => {
     expect(coursePath([0, 1, 2], [-1, 1, 0], 100, 50)).toBe("0.00,50.00 50.00,0.00 100.00,25.00");
   });
 
-  it("draws what stands still in the middle", () => {
+  it("draws a constant in the middle", () => {
     expect(coursePath([0, 1], [3, 3], 10, 10)).toBe("0.00,5.00 10.00,5.00");
   });
 });

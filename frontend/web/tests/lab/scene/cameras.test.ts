@@ -7,20 +7,20 @@ describe("the camera from the side", () => {
   const halfSeen = (aspect: number) =>
     (placeCamera("side", aspect).position[1] - 0.48) * Math.tan(Math.PI / 12) * aspect;
 
-  it.each([0.6, 0.86, 0.93, 1.42, 2])("has the motor and the load whole, aspect %f", (aspect) => {
+  it.each([0.6, 0.86, 0.93, 1.42, 2])("shows motor and load completely, aspect %f", (aspect) => {
     const middle = placeCamera("side", aspect).look_at[0];
     expect(middle - halfSeen(aspect)).toBeLessThan(-3.75);
     expect(middle + halfSeen(aspect)).toBeGreaterThan(1.7);
   });
 
-  it("is no farther away than it has to be", () => {
+  it("is as near as possible", () => {
     expect(placeCamera("side", 2)).toEqual(placeCamera("side", 1.2));
     expect(halfSeen(0.6)).toBeCloseTo(halfSeen(0.8), 0);
   });
 });
 
-describe("the first camera", () => {
-  it("is in viser's address, as far away as the picture is narrow", () => {
+describe("the initial camera", () => {
+  it("is in the address of viser, farther away for a narrower picture", () => {
     const { position } = placeCamera("whole", 0.45);
     const asked = new URLSearchParams(addressOf(placeCamera("whole", 0.45)));
     expect(asked.get("initialCameraPosition")?.split(",").map(Number)).toEqual([...position]);
@@ -50,7 +50,7 @@ describe("the angle under the pointer", () => {
     expect(angleSeen(FRONT, -0.5, -0.5)).toBeCloseTo(-Math.PI / 4, 9);
   });
 
-  it("is none where the sight goes away from the link's plane", () => {
+  it("is unknown if the view ray points away from the plane of the link", () => {
     const behind = [...FRONT.matrixWorld.elements];
     behind[14] = 10;
     expect(angleSeen({ ...FRONT, matrixWorld: { elements: behind } }, 0, 0)).toBeNull();
@@ -58,14 +58,14 @@ describe("the angle under the pointer", () => {
 });
 
 describe("the spring of the pointer", () => {
-  it("pulls towards it from where the link was taken, at most with 1.5 N·m", () => {
+  it("pulls towards the pointer from the gripped point, at most with 1.5 N·m", () => {
     expect(pullOf(0.5, 0.5, 0)).toBe(0);
     expect(pullOf(0.9, 0.5, 0.2)).toBeCloseTo(0.5, 9);
     expect(pullOf(3, 0, 0)).toBe(1.5);
     expect(pullOf(-3, 0, 0)).toBe(-1.5);
   });
 
-  it("takes the short way round", () => {
+  it("uses the shorter direction of rotation", () => {
     expect(wrap(2 * Math.PI + 0.1)).toBeCloseTo(0.1, 9);
     expect(pullOf(-3.1, 3.1, 0)).toBeGreaterThan(0);
   });

@@ -76,7 +76,7 @@ describe("labels on a picture", () => {
     },
   );
 
-  it.each(FIELDS)("stay clear while their parts move, and stay where they lie well", (field) => {
+  it.each(FIELDS)("do not overlap while their parts move, and keep a good place", (field) => {
     const places = new LabelPlaces();
     const first = spread(field, 7, 12);
     let before = places.place(first, field);
@@ -98,14 +98,14 @@ describe("labels on a picture", () => {
     expect(kept / (40 * 12)).toBeGreaterThan(0.8);
   });
 
-  it("is next to its part where nothing is in the way", () => {
+  it("are next to their part if there is space", () => {
     const [field] = FIELDS as [Box];
     const wanted = { key: "q", x: 150, y: 100, width: 17, height: 16 };
     const [placed] = new LabelPlaces().place([wanted], field);
     expect(lengthOf(placed as PlacedLabel)).toBeLessThan(8);
   });
 
-  it("is not shown of a part outside, nor where no room is left", () => {
+  it("are hidden if the part is outside or there is no space", () => {
     const [field] = FIELDS as [Box];
     const outside = { key: "far", x: 500, y: 100, width: 17, height: 16 };
     expect(new LabelPlaces().place([outside], field)).toEqual([]);
@@ -115,7 +115,7 @@ describe("labels on a picture", () => {
   });
 });
 
-describe("the sight of a part", () => {
+describe("the visibility of a part", () => {
   const identity = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
   const matrixAt = (z: number) => {
     const elements = [...identity];
@@ -152,20 +152,20 @@ describe("the sight of a part", () => {
     traverseVisible: (visit) => parts.forEach(visit),
   });
 
-  it("is on the picture where the camera has it", () => {
+  it("matches the picture of the camera", () => {
     expect(findOnPicture(EYE, [0, 0, -4])).toEqual({ x: 0.5, y: 0.5 });
     const aside = findOnPicture(EYE, [4, 2, -4]);
     expect([aside?.x, aside?.y]).toEqual([expect.closeTo(0.75, 9), expect.closeTo(0.25, 9)]);
     expect(findOnPicture(EYE, [0, 0, 1])).toBeNull();
   });
 
-  it("ends at a solid before it, and only there", () => {
+  it("is blocked by a solid in front of it only", () => {
     expect(isOccluded(EYE, [0, 0, -4], partsOf(sheet(-2)))).toBe(true);
     expect(isOccluded(EYE, [0, 0, -4], partsOf(sheet(-6)))).toBe(false);
     expect(isOccluded(EYE, [3.9, 0, -4], partsOf(sheet(-2)))).toBe(false);
   });
 
-  it("goes through an outline, and reaches the surface of its own part", () => {
+  it("is not blocked by an outline or by the part's own surface", () => {
     expect(isOccluded(EYE, [0, 0, -4], partsOf(sheet(-2, true)))).toBe(false);
     expect(isOccluded(EYE, [0, 0, -4], partsOf(sheet(-3.95)))).toBe(false);
   });

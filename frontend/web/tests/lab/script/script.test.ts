@@ -12,7 +12,7 @@ const load = { method: "post", path: "sessions/lab/loads", body: { kind: "paper"
 describe("the calls of the page", () => {
   beforeEach(clearCalls);
 
-  it("are those that change something, with the time that the answer tells", () => {
+  it("are the changing ones, with the time from the response", () => {
     logCall("get", "sessions/lab", undefined, 200);
     logCall("post", "references/preview", { kind: "constant" }, 200, { time_s: [0] });
     logCall("post", "sessions/lab/loads", { kind: "paper" }, 201, { time_s: 2.5 });
@@ -25,12 +25,12 @@ describe("the calls of the page", () => {
     ]);
   });
 
-  it("never hold the secret", () => {
+  it("never contain the secret", () => {
     logCall("post", "login", { secret: "correct horse" }, 204);
     expect(calls.value).toEqual([]);
   });
 
-  it("are kept to the newest 200", () => {
+  it("are limited to the newest 200", () => {
     for (let index = 0; index < 250; index++) logCall("put", String(index), undefined, 200);
     expect(calls.value).toHaveLength(200);
     expect(calls.value.at(-1)?.path).toBe("249");
@@ -49,13 +49,13 @@ describe("a call as code", () => {
     expect(toSnippets([load], "python", LAB)).toMatch(/^import httpx\n\nhttpx\.post/);
   });
 
-  it("lets nothing out of its quotes", () => {
+  it("escapes every quote", () => {
     const named = { method: "post", path: "a", body: { name: `it's "1"\n\\$(x)` } };
     expect(toSnippet(named, "curl", LAB)).toContain(`it'\\''s`);
     expect(toSnippet(named, "python", LAB)).toContain('"it\'s \\"1\\"\\n\\\\$(x)"');
   });
 
-  it("says None, True and False", () => {
+  it("writes None, True and False", () => {
     expect(toPython({ a: null, b: [true, false, 1.5], c: undefined })).toBe(
       '{"a": None, "b": [True, False, 1.5]}',
     );
@@ -96,12 +96,12 @@ const given = (tick: number, kind: CommandKind, argument: unknown) =>
   ({ tick, command: { tick, kind, argument } }) as RunOrigin["commands"][number];
 
 describe("an experiment as a script", () => {
-  it("says where a bench was stopped, which a simulation cannot do again", () => {
+  it("states where a bench was stopped, which a simulation cannot repeat", () => {
     const script = writeExperiment(origin({}, [given(2500, "stop", null)]), "bench", "http://lab");
     expect(script).toContain("# Here the bench was stopped");
   });
 
-  it("gives every command at its time and goes on to the end", () => {
+  it("sends every command at its time and runs to the end", () => {
     const script = writeExperiment(
       origin({}, [
         given(2500, "load", { kind: "paper", start_s: null }),
@@ -123,7 +123,7 @@ describe("an experiment as a script", () => {
     ]);
   });
 
-  it("says where the recording begins, and simulates the time before it", () => {
+  it("states where the recording starts, and simulates the time before it", () => {
     const load = [given(2500, "load", { kind: "paper" }), given(7100, "unload", 1)];
     const late = { ...origin({}, load), first_tick: 7000 };
     const script = writeExperiment(late, "a", "http://lab");
@@ -138,7 +138,7 @@ describe("an experiment as a script", () => {
     expect(whole).not.toContain("recording begins");
   });
 
-  it("begins a reference again that is followed already", () => {
+  it("restarts a reference that is already followed", () => {
     const other = { kind: "constant", position_rad: 0.5 };
     const commands = [
       given(100, "position", { kind: "sine" }),
@@ -172,7 +172,7 @@ describe("an experiment as a script", () => {
     ]);
   });
 
-  it("opens another actuator, which the shared session cannot have", () => {
+  it("opens a session with another actuator, which the shared session cannot have", () => {
     const opening = { from: "actuator", actuator: "qbmove", load: false };
     const script = writeExperiment({ ...origin({}), opening }, "a", "http://lab");
     expect(script).toContain('{"actuator": "qbmove", "load": False, "law": "ndobc"}');
@@ -225,14 +225,14 @@ describe("an experiment as a script", () => {
     );
   });
 
-  it("cannot be broken out of by a name", () => {
+  it("cannot be broken by a name with special characters", () => {
     const script = writeExperiment(origin({}), '"""\nimport os\n"""\\', "http://lab");
     expect(script.split("\n")[0]).toBe(
       `"""''' import os '''/: an experiment of SVSA Lab, 0 to 7.25 s, to be run again.`,
     );
   });
 
-  it("knows the words of every kind of command", () => {
+  it("has a text for every kind of command", () => {
     expect(writeCommand("comparisons", [])).toEqual(["session.comparisons = []"]);
     const setting = { lane: 3, setting: { law: "fl", gains: null } };
     expect(writeCommand("lane", setting)).toEqual(['session.set_lane(3, svsa.Lane(law="fl"))']);

@@ -87,8 +87,8 @@ beforeEach(() => {
 
 afterEach(() => vi.useRealTimers());
 
-describe("a tuning that is followed", () => {
-  it("asks for what it has not got, over a lost answer, until it has ended", async () => {
+describe("a running tuning", () => {
+  it("requests the missing candidates, also after a lost answer, until it ends", async () => {
     answers = [
       sent(state("waiting", [])),
       sent(state("running", [trial(0, 3), trial(1, 2)])),
@@ -114,7 +114,7 @@ describe("a tuning that is followed", () => {
     expect([isUnderWay.value, problem.value]).toEqual([false, null]);
   });
 
-  it("is not begun where the server refuses it, and the last one stays", async () => {
+  it("does not start if the server rejects it, and the previous one is kept", async () => {
     tuning.value = state("done", []);
     vi.stubGlobal("fetch", async () =>
       Response.json({ type: "urn:svsa:problem:busy", detail: "too much" }, { status: 503 }),
@@ -125,8 +125,8 @@ describe("a tuning that is followed", () => {
   });
 });
 
-describe("what a tuning has found", () => {
-  it("is the least cost so far, after every candidate", () => {
+describe("the result of a tuning", () => {
+  it("is the lowest cost so far, after every candidate", () => {
     expect(bestSoFar([trial(0, 3), trial(1, 5), trial(2, 1), trial(3, 2)])).toEqual([
       [0, 3],
       [1, 3],
@@ -135,7 +135,7 @@ describe("what a tuning has found", () => {
     ]);
   });
 
-  it("is put into the session as parameters of its law, or as gains and the observer", async () => {
+  it("is applied to the session as parameters of its law, or as gains and the observer", async () => {
     const parameters = { position_pole_rad_per_s: 41 };
     const own = { law: "fl_integral", gains: null, parameters, observer: null };
     tuning.value = state("done", [], { best_setting: own as never });

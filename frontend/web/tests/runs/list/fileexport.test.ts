@@ -20,7 +20,7 @@ async function load(answer: () => Promise<Response>) {
   return import("../../../src/runs/list/problem");
 }
 
-describe("a file that the server makes for long", () => {
+describe("a file that takes the server long", () => {
   it("is shown as in progress, requested once, and saved under its name", async () => {
     let answer: (response: Response) => void = () => undefined;
     let asked = 0;
@@ -41,7 +41,7 @@ describe("a file that the server makes for long", () => {
     expect(making.value?.stage).toBe("saved");
   });
 
-  it("says why it was not made", async () => {
+  it("reports why it failed", async () => {
     const refusal = JSON.stringify({ detail: "Another replay is being made: ask again in 5 s." });
     const { exportFile: makeFile, fileExport: making } = await load(
       async () => new Response(refusal, { status: 503 }),

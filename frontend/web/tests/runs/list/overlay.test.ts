@@ -10,7 +10,7 @@ const { chooseAlignment, overlay } = await import("../../../src/runs/list/overla
 const { explainDifference } = await import("../../../src/runs/list/overlaycurves");
 const { COLUMNS, findBest } = await import("../../../src/runs/list/overlaytable");
 
-describe("runs laid over one another", () => {
+describe("overlaid runs", () => {
   const runOf = (change: object) =>
     ({
       ...{ lanes: ["lane1"], lane_names: ["FL"], segments: [], period_s: 0.001, first_tick: 0 },
@@ -29,7 +29,7 @@ describe("runs laid over one another", () => {
   });
   const samples = (...time: number[]) => ({ time_s: time, lanes: {} }) as never;
 
-  it("begin at their starts where one ended before its load came", () => {
+  it("are aligned at their starts if a run ended before its load", () => {
     expect(chooseAlignment([LOADED, ENDED])).toBe("start");
     const [withLoad] = overlay(LOADED, samples(0, 5, 10), "start");
     const [without] = overlay(ENDED, samples(0, 0.1), "start");
@@ -39,7 +39,7 @@ describe("runs laid over one another", () => {
     expect(without).toMatchObject({ startS: 0, changedS: null });
   });
 
-  it("begin at their loads where each had one, or a record begins later than its run", () => {
+  it("are aligned at their loads if all have one, or if a record starts later than its run", () => {
     expect(chooseAlignment([LOADED, LOADED])).toBe("window");
     expect(chooseAlignment([ENDED, ENDED])).toBe("window");
     const later = runOf({ ...(ENDED as object), first_tick: 50 });
@@ -50,7 +50,7 @@ describe("runs laid over one another", () => {
   });
 });
 
-describe("the best of an overlay", () => {
+describe("the best value of an overlay", () => {
   const PAPER = { tick: 2000, command: { kind: "load", argument: { kind: "paper" } } };
   const curveOf = (id: string, peak: number, change: object = {}) => {
     const window = { ...{ kind: "load", label: "3 kg load", first_tick: 2000, end_tick: 5000 } };
@@ -92,7 +92,7 @@ describe("the best of an overlay", () => {
   const marked = (curves: OverlayCurve[], isAlike = true) =>
     COLUMNS.filter((column) => findBest(curves, column, isAlike) === 0).map(({ name }) => name);
 
-  it("is shown where runs differ in the controller only", () => {
+  it("is marked if runs differ in the controller only", () => {
     const pair = [curveOf("a", 0.07), curveOf("b", 0.2)];
     const controllers = differing(
       ["Controller", "Law"],
@@ -110,7 +110,7 @@ describe("the best of an overlay", () => {
     expect(explainDifference(pair, null)).toMatch(/unknown/);
   });
 
-  it("needs the same loads at the same time of the run, whenever the recording began", () => {
+  it("requires the same loads at the same time of the run, for any start of the recording", () => {
     const heavy = { ...PAPER, command: { kind: "load", argument: { kind: "mass", mass_kg: 5 } } };
     const same = curveOf("b", 0.2, { first_tick: 700 });
     expect(explainDifference([curveOf("a", 0.07), same], differing(["Loads", "Loads"]))).toBe("");
@@ -123,7 +123,7 @@ describe("the best of an overlay", () => {
     }
   });
 
-  it("is none between a bench and its twin, nor between a bench and a simulation", () => {
+  it("is not marked between a bench and its twin, nor between a bench and a simulation", () => {
     const bench = curveOf("a", 0.07, { lanes: ["lane1", "lane2"], plant: "emulated" });
     const simulated = curveOf("b", 0.2);
     const why = "bench and simulation are different plants";
@@ -132,7 +132,7 @@ describe("the best of an overlay", () => {
     expect(explainDifference([bench, { ...bench, run: "c" }], differing())).toBe("");
   });
 
-  it("is no smallest torque, and of rms none where the windows are of different length", () => {
+  it("is not marked for the smallest torque, nor for rms of windows of different length", () => {
     const [small, large] = [curveOf("a", 0.07), curveOf("b", 0.2)];
     const errors = ["Peak error", "Steady-state error"];
     expect(marked([small, large])).toEqual(["rms error", ...errors, "rms stiffness"]);

@@ -48,7 +48,7 @@ beforeAll(async () => {
 });
 
 describe("a place in the address", () => {
-  it("is read as it was written", () => {
+  it("is read back as it was written", () => {
     for (const query of ["", "?runs=all", "?run=a-1&t=12.3", "?run=a-1", "?overlay=a,b"]) {
       expect(writePlace(readPlace(query), query)).toBe(query);
     }
@@ -66,7 +66,7 @@ describe("a place in the address", () => {
     expect(readPlace("?learn=all")).toEqual({ kind: "learn", exercise: "", step: "" });
   });
 
-  it("of a study says what of it is looked at", () => {
+  it("of a study contains axes, law and brush", () => {
     const query = "?studies=load&sx=a&ty=b&law=fl&brush=s%3A1,2,3,4";
     const look = { sx: "a", ty: "b", law: "fl", brush: "s:1,2,3,4" };
     expect(readPlace(query)).toEqual({ kind: "studies", study: "load", look });
@@ -75,27 +75,27 @@ describe("a place in the address", () => {
     expect(writePlace({ kind: "ranking" }, query)).toBe("?ranking=all");
   });
 
-  it("keeps what else the address says", () => {
+  it("keeps the other parts of the address", () => {
     expect(writePlace({ kind: "list" }, "?session=private-1&run=a&t=2")).toBe(
       "?session=private-1&runs=all",
     );
   });
 
-  it("takes no moment that is none", () => {
+  it("ignores an invalid time", () => {
     for (const query of ["?run=a&t=soon", "?run=a&t=-1"]) {
       expect(readPlace(query)).toEqual({ kind: "run", run: "a", timeS: 0 });
     }
   });
 });
 
-describe("the window of a run's numbers", () => {
+describe("the window of the metrics of a run", () => {
   const window = {
     ...{ kind: "load", label: "3 kg load", first_tick: 2000, end_tick: 5000 },
     ...{ start_s: 2, end_s: 5, is_whole: false, lanes: ["FL"], load_ended: false },
   } as const;
   const samples = { time_s: [2, 5], lanes: {} } as never;
 
-  it("is named with its ends, and with the law where others controlled before or after", () => {
+  it("is named with its ends, and with the law if others controlled before or after", () => {
     const measured = { ...window, lanes: [...window.lanes] };
     expect(describeMeasured(measured)).toBe("3 kg load, 2.00–5.00 s");
     expect(describeMeasured(measured, true)).toBe("FL: 3 kg load, 2.00–5.00 s");
@@ -103,7 +103,7 @@ describe("the window of a run's numbers", () => {
     expect(describeMeasured({ ...measured, label: "" })).toBe("From the start, 2.00–5.00 s");
   });
 
-  it("has every lane's number by its law, for where a table has no room for all", () => {
+  it("has the value of every lane by its law, for a narrow table", () => {
     const metrics = [{ peak_position_error_rad: 0.0628 }, { peak_position_error_rad: 0.195 }];
     const run = details({ window: { ...window, lanes: ["NDOBC", "FL"] }, metrics });
     expect(describeDegrees(run, "peak_position_error_rad")).toBe("NDOBC 3.6°, FL 11°");
@@ -112,14 +112,14 @@ describe("the window of a run's numbers", () => {
     );
   });
 
-  it("has a steady-state error where its load stays, and is long enough", () => {
+  it("has a steady-state error if its load remains and it is long enough", () => {
     const measured = { ...window, lanes: [] };
     expect(explainSteadyState(measured)).toMatch(/last 0.5 s/);
     expect(explainSteadyState({ ...measured, load_ended: true })).toMatch(/the load ended before/);
     expect(explainSteadyState({ ...measured, end_s: 2.9 })).toMatch(/shorter than 1 s/);
   });
 
-  it("begins at 0 of an overlay, which says where it ends and whose numbers those are", () => {
+  it("starts at 0 in an overlay, which states its end and its laws", () => {
     const run = details({ title: "A", lane_names: ["NDOBC → FL"], window, metrics: [{}] });
     const segments = [
       [
@@ -142,14 +142,14 @@ describe("the window of a run's numbers", () => {
 });
 
 describe("curves", () => {
-  it("of an overlay share colour and dash with no other", () => {
+  it("of an overlay have a unique colour and dash", () => {
     const lineStyles = Array.from({ length: 20 }, (_, index) => lineStyleOf(index));
     expect(
       new Set(lineStyles.map((lineStyle) => `${lineStyle.colour} ${lineStyle.dash.join()}`)).size,
     ).toBe(20);
   });
 
-  it("of a small plot are interrupted where a value is missing", () => {
+  it("of a small plot have a gap at missing values", () => {
     const lanes = { lane1: { position_error_rad: [0, null, -0.1, 0.05] } };
     const ndobc = {
       number: 1,
@@ -170,23 +170,23 @@ describe("curves", () => {
   });
 });
 
-describe("what a search has found", () => {
+describe("a match of a search", () => {
   const shown = (text: string, words: string[]) =>
     findWords(text, words).map(({ text: part, isFound }) => (isFound ? `[${part}]` : part));
 
-  it("is marked where it stands, whatever its case", () => {
+  it("is marked at its position, in any case", () => {
     expect(shown("Student 07", ["07", "stud"])).toEqual(["[Stud]", "ent ", "[07]"]);
     expect(shown("aaa", ["aa"])).toEqual(["[aaa]"]);
     expect(shown("100 %", ["%"])).toEqual(["100 ", "[%]"]);
   });
 
-  it("is the whole text where nothing was searched for or folding moves its letters", () => {
+  it("is the complete text without a search or if case folding moves its letters", () => {
     expect(shown("Fig. 4A", [])).toEqual(["Fig. 4A"]);
     expect(shown("U\u0308bung", ["übung"])).toEqual(["U\u0308bung"]);
     expect(shown("", ["a"])).toEqual([]);
   });
 
-  it("is in sight in a long note", () => {
+  it("is visible in a long note", () => {
     const note = `${"before ".repeat(20)}heavy load`;
     expect(excerpt(note, ["heavy"])).toBe("…e before before heavy load".slice(-27));
     expect(excerpt(note, ["nowhere"])).toBe(note);
@@ -194,7 +194,7 @@ describe("what a search has found", () => {
 });
 
 describe("a setting that differs", () => {
-  it("is shown in the units that people read", () => {
+  it("is shown in the displayed units", () => {
     const angle = { group: "Motion", name: "Amplitude", unit: "rad", values: [Math.PI / 3, null] };
     expect(formatSetting(angle)).toEqual({ unit: "deg", values: ["60", "–"] });
     const others = { group: "Realism", name: "x", unit: "N·m", values: [-0.25, "on", true] };
@@ -203,7 +203,7 @@ describe("a setting that differs", () => {
 });
 
 describe("the order of the table", () => {
-  it("turns round with the second press on a column", () => {
+  it("is reversed by the second click on a column", () => {
     expect(nextSort("-created", "name", false)).toBe("name");
     expect(nextSort("name", "name", false)).toBe("-name");
     expect(nextSort("name", "peak_position_error_rad", true)).toBe("-peak_position_error_rad");
@@ -214,7 +214,7 @@ describe("the order of the table", () => {
 });
 
 describe("a recording that has ended", () => {
-  it("is saved when its file is finished, and unknown where no answer comes", async () => {
+  it("is saved when its file is complete, and unknown without an answer", async () => {
     vi.useFakeTimers();
     const answers = [{ state: "recording" }, { state: "complete", title: "Fig. 4A" }];
     vi.stubGlobal("fetch", async () => Response.json(answers.shift()));

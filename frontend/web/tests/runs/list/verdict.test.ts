@@ -41,7 +41,7 @@ describe("a verdict in an overlay", () => {
     { run: "c", reference: "a", verdict: verdict([1, 2, 3, 4], { channels: [] }) },
   ];
 
-  it("asks in the units of the record what was typed in those of the screen", () => {
+  it("sends in the units of the record the values entered in displayed units", () => {
     const bounds = { absolute: 180, relativePercent: 5, timeS: 0.01 };
     const stiffness = { absolute: 2, relativePercent: 0, timeS: 0 };
     const wanted = buildRequest(
@@ -58,7 +58,7 @@ describe("a verdict in an overlay", () => {
     expect(wanted).toMatchObject({ other: "a", rest: null, align: "start" });
   });
 
-  it("is given in the time of the axis, whose 0 is another time of each run", () => {
+  it("is shown in the time of the axis, whose 0 differs between the runs", () => {
     const [one, ...rest] = listJudged(curves, judged);
     expect(rest).toEqual([]);
     expect(one).toMatchObject({ isWithin: false, worstS: 2.25, outside: [[2, 2.5]], low: null });
@@ -66,7 +66,7 @@ describe("a verdict in an overlay", () => {
     expect(one?.high).toBeCloseTo(90);
   });
 
-  it("shows of bands that differ in length alone the longest", () => {
+  it("shows the longest of bands that differ in length only", () => {
     const [shown, ...rest] = listBands(curves, judged, POSITION);
     expect(rest).toEqual([]);
     expect(shown?.time).toEqual([-1, 0, 1, 2]);

@@ -1,7 +1,7 @@
 import "../../browserless";
 import { expect, it } from "vitest";
 
-it("a record that began within a session says in whose time its files are", async () => {
+it("the files of a record that started during a session state which time they use", async () => {
   const { formatLength } = await import("../../../src/runs/list/words");
   const run = { duration_s: 31.498, first_tick: 0, period_s: 0.001 };
   expect(formatLength(run)).toBe("31.5 s");

@@ -9,7 +9,7 @@ const planesOf = (words: Uint32Array) =>
   });
 
 describe("an array of a replay", () => {
-  it("is float32, or differences in whole steps, of which the lowest number is none", () => {
+  it("is float32, or differences in integer steps, and the lowest number marks a missing value", () => {
     const plain = new Uint32Array(new Float32Array([1.5, -2, Number.NaN]).buffer);
     expect([...unpack(planesOf(plain), [0, 3])]).toEqual([1.5, -2, Number.NaN]);
     // 300, −2, none, 7: the changes are 300, −302, −2³¹ + 2, and 2³¹ + 7, which wraps.

@@ -46,7 +46,7 @@ beforeEach(() => {
 afterEach(() => vi.unstubAllGlobals());
 
 describe("the audit log", () => {
-  it("turns to older pages of what the first one was read of", async () => {
+  it("loads older pages of the log that the first page was read from", async () => {
     const log = await load();
     await log.queryAudit();
     await log.goToPage(2);
@@ -58,7 +58,7 @@ describe("the audit log", () => {
     expect(log.countPages(0)).toBe(1);
   });
 
-  it("begins at the newest again with another filter, and keeps the others", async () => {
+  it("starts at the newest entry with another filter, and keeps the other filters", async () => {
     const log = await load();
     await log.queryAudit({ person: "p-1" });
     await log.goToPage(2);
@@ -74,7 +74,7 @@ describe("the audit log", () => {
     });
   });
 
-  it("shows what was asked for last where an earlier answer comes later", async () => {
+  it("shows the latest request if an earlier answer arrives later", async () => {
     const log = await load();
     let late: (response: Response) => void = () => {};
     answers = [
@@ -92,7 +92,7 @@ describe("the audit log", () => {
     expect(log.isReading.value).toBe(false);
   });
 
-  it("says why it cannot be read, and keeps what it had", async () => {
+  it("reports why it cannot be read, and keeps its entries", async () => {
     const log = await load();
     await log.queryAudit();
     answers = [() => answer({ detail: "Too much is being made.", violations: [] }, 503)];
@@ -102,8 +102,8 @@ describe("the audit log", () => {
   });
 });
 
-describe("a line of it", () => {
-  it("says the time of day here, with the date of another day", async () => {
+describe("a line of the audit log", () => {
+  it("has the local time, with the date on another day", async () => {
     const { formatTime } = await load();
     const at = new Date(line.time);
     const clock = at.toLocaleTimeString("en-GB");

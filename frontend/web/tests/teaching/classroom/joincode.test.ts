@@ -5,7 +5,7 @@ import { takeCode } from "../../../src/teaching/classroom/join";
 afterEach(() => vi.unstubAllGlobals());
 
 describe("the class code of a QR code", () => {
-  it("is taken out of the address, whose other parts stay", () => {
+  it("is removed from the address, whose other parts are kept", () => {
     const written: string[] = [];
     vi.stubGlobal("location", { hash: "#join=AB%2D2", pathname: "/lab/", search: "?runs=all" });
     vi.stubGlobal("history", {
@@ -16,7 +16,7 @@ describe("the class code of a QR code", () => {
     expect(written).toEqual(["/lab/?runs=all"]);
   });
 
-  it("is none where the address has another fragment", () => {
+  it("is absent if the address has another fragment", () => {
     vi.stubGlobal("location", { hash: "#plots", pathname: "/", search: "" });
     expect(takeCode()).toBe("");
   });

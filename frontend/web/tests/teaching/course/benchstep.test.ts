@@ -33,14 +33,14 @@ const HUNG = of({
 const state = (change: object) =>
   ({ time_s: 4, bench: bench({ status: "run" }), ...change }) as unknown as SessionState;
 
-describe("what a bench may be asked for by a step", () => {
-  it("is all of it where it is ready and at home, and in a simulation", () => {
+describe("the actions that a step may request of a bench", () => {
+  it("are all if the bench is ready and homed, and in a simulation", () => {
     const all = { canConfigure: true, canRun: true, nextAction: null };
     expect(readinessOf(bench(), false)).toEqual(all);
     expect(readinessOf(null, false)).toEqual(all);
   });
 
-  it("is no start before the required actions, which are named", () => {
+  it("exclude the start before the required actions, which are named", () => {
     const ready = (change: object, held = false) => readinessOf(bench(change), held);
     expect(ready({ status: "ready", homing: { next_step: "link" } })).toMatchObject({
       canRun: false,
@@ -51,7 +51,7 @@ describe("what a bench may be asked for by a step", () => {
     expect(ready({ status: "fault" }).nextAction).toBe("clear");
   });
 
-  it("is nothing while it moves, or its loop does not tick", () => {
+  it("are none while the bench moves or its loop does not tick", () => {
     expect(readinessOf(bench({ status: "run" }), false)).toEqual({
       canConfigure: false,
       canRun: false,
@@ -64,7 +64,7 @@ describe("what a bench may be asked for by a step", () => {
 });
 
 describe("a step on a bench", () => {
-  it("is there where the exercise says so, and has what is asked there", () => {
+  it("is possible only if the exercise defines it for a bench, with its own criteria", () => {
     expect(isPossibleOn(of(null), bench())).toBe(false);
     expect(isPossibleOn(of(null), null)).toBe(true);
     expect(isPossibleOn(HUNG, bench())).toBe(true);
@@ -72,7 +72,7 @@ describe("a step on a bench", () => {
     expect(criteriaOf(HUNG, null)).toEqual(["simulated"]);
   });
 
-  it("tells what is to be done by hand, until a moment after", () => {
+  it("names the manual actions until shortly after them", () => {
     expect(dueManualLoad(HUNG, 0)?.time_s).toBe(5);
     expect(dueManualLoad(HUNG, 6.9)?.time_s).toBe(5);
     expect(dueManualLoad(HUNG, 7)?.is_on).toBe(false);
@@ -80,7 +80,7 @@ describe("a step on a bench", () => {
     expect(dueManualLoad(of(null), 0)).toBeNull();
   });
 
-  it("is cut off where control is lost or the bench is stopped, and not before it runs", () => {
+  it("is interrupted if control is lost or the bench is stopped, and not before it runs", () => {
     expect(findInterruption(state({}), true)).toBeNull();
     expect(findInterruption(state({}), false)).toBe("control");
     expect(findInterruption(state({ bench: null }), false)).toBe("control");

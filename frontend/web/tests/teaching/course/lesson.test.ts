@@ -96,8 +96,8 @@ beforeEach(() => {
   lesson.problem.value = "";
 });
 
-describe("the step one is at", () => {
-  it("is that of the address, by name or number, or where one was last, or the first", () => {
+describe("the current step", () => {
+  it("is that of the address, by name or number, or the last visited one, or the first", () => {
     const at = (said: string) => {
       place.value = { kind: "learn", exercise: "mechanism", step: said };
       return lesson.step.value?.name;
@@ -112,7 +112,7 @@ describe("the step one is at", () => {
     expect(at("lever")).toBe("lever");
   });
 
-  it("has settings to choose only where it leaves some free", () => {
+  it("has free settings only if it declares them", () => {
     const free = step("bend", { free: ["stiffness"] });
     lesson.exercise.value = course({ parts: [step("idea", { kind: "read" }), free] });
     expect(lesson.hasFreeSettings.value).toBe(false);
@@ -120,7 +120,7 @@ describe("the step one is at", () => {
     expect(lesson.hasFreeSettings.value).toBe(true);
   });
 
-  it("is none of another exercise, nor where none is open", () => {
+  it("is none for another exercise, or if none is open", () => {
     place.value = { kind: "learn", exercise: "observer", step: "" };
     expect(lesson.step.value).toBeNull();
     place.value = { kind: "lab" };
@@ -128,14 +128,14 @@ describe("the step one is at", () => {
   });
 });
 
-describe("a step's run", () => {
+describe("the run of a step", () => {
   const record = () =>
     calls.recordStep.mockImplementation(async () => {
       session.value = state({ recording });
       return OLDER;
     });
 
-  it("is cut off where control is lost in the middle, not judged, and can be begun again", async () => {
+  it("is interrupted without an assessment if control is lost, and can be repeated", async () => {
     record();
     await lesson.run(step("lever"));
     const other = { holder: "Bob", mine: false, watching: 1 };
@@ -154,7 +154,7 @@ describe("a step's run", () => {
     expect(lesson.activeRun.value?.step).toBe("lever");
   });
 
-  it("that is refused when it is begun is no trial, and its recording ends", async () => {
+  it("does not count if its start is rejected, and its recording ends", async () => {
     record();
     calls.start.mockRejectedValue(new RefusedError(409, "The bench is off."));
     await lesson.run(step("lever"));
@@ -162,7 +162,7 @@ describe("a step's run", () => {
     expect(calls.stopRecording).toHaveBeenCalledOnce();
   });
 
-  it("is set up, recorded under the step's name and begun at once where nothing is free", async () => {
+  it("is set up, recorded under the name of the step and started if there are no free settings", async () => {
     record();
     await lesson.setUp(step("lever"));
     expect(calls.setUpStep).toHaveBeenCalledWith("mechanism", "lever");
@@ -173,20 +173,20 @@ describe("a step's run", () => {
     expect(lesson.isRunOfLesson("run-2")).toBe(false);
   });
 
-  it("waits for the choice where one is free", async () => {
+  it("waits for the choice of a free setting", async () => {
     await lesson.setUp(step("lever", { free: ["law"] }));
     expect(calls.setUpStep).toHaveBeenCalledOnce();
     expect(calls.recordStep).not.toHaveBeenCalled();
   });
 
-  it("is not begun where its recording is refused", async () => {
+  it("does not start if its recording is rejected", async () => {
     calls.recordStep.mockRejectedValue(new RefusedError(409, "The disk is full."));
     await lesson.run(step("lever"));
     expect(calls.start).not.toHaveBeenCalled();
     expect(lesson.activeRun.value).toBeNull();
   });
 
-  it("goes on to the step's end, and is then stopped and judged once", async () => {
+  it("runs to the end of the step, and is then stopped and assessed once", async () => {
     record();
     await lesson.run(step("lever"));
     session.value = state({ time_s: 5.9, recording });
@@ -204,7 +204,7 @@ describe("a step's run", () => {
     expect(lesson.activeRun.value).toBeNull();
   });
 
-  it("that ends in a fault, or that another user stopped, is assessed up to its end", async () => {
+  it("is assessed up to its end if it ends in a fault or another user stops it", async () => {
     calls.readRun.mockResolvedValue({ state: "complete" });
     for (const ended of [{ status: "fault", recording }, { recording: null }]) {
       session.value = state({ recording });
@@ -218,7 +218,7 @@ describe("a step's run", () => {
     expect(calls.stopRecording).toHaveBeenCalledOnce();
   });
 
-  it("is followed again after a reload, and only by the step it is of", () => {
+  it("is followed again after a reload, and only by its own step", () => {
     session.value = state({ recording });
     lesson.resume(step("bend"));
     expect(lesson.activeRun.value).toBeNull();
@@ -226,7 +226,7 @@ describe("a step's run", () => {
     expect(lesson.activeRun.value).toMatchObject({ exercise: "mechanism", step: "lever" });
   });
 
-  it("is judged when its record is finished, not before", async () => {
+  it("is assessed only after its record is complete", async () => {
     vi.useFakeTimers();
     session.value = state({ time_s: 6, recording });
     lesson.resume(step("lever"));
@@ -246,8 +246,8 @@ describe("a step's run", () => {
   });
 });
 
-describe("what is shown of a step", () => {
-  it("is the newest judgement of its run, and else what is kept", () => {
+describe("the displayed result of a step", () => {
+  it("is the newest assessment of its run, or else the stored one", () => {
     const lever = step("lever", { results: [result("lever", "kept")] });
     const bend = step("bend", { results: [result("bend", "kept")] });
     expect(lesson.resultsOf(lever)).toEqual(lever.results);
@@ -257,7 +257,7 @@ describe("what is shown of a step", () => {
     expect(lesson.resultsOf(bend)).toEqual(bend.results);
   });
 
-  it("says why an answer was not taken, and forgets it with the next", async () => {
+  it("reports why an answer was rejected, until the next answer", async () => {
     calls.putAnswer.mockRejectedValueOnce(new RefusedError(422, "5 is above 1."));
     await lesson.answer(step("predict-lever"), 5);
     expect(lesson.problem.value).toContain("5 is above 1.");
@@ -268,7 +268,7 @@ describe("what is shown of a step", () => {
     expect(lesson.exercise.value?.at).toBe("lever");
   });
 
-  it("is what knows of more changes, where one answer overtakes another", async () => {
+  it("is that with the most changes if an answer overtakes another", async () => {
     let arrive: (found: Exercise) => void = () => undefined;
     calls.putPlace.mockReturnValue(
       new Promise((resolve) => {
@@ -284,7 +284,7 @@ describe("what is shown of a step", () => {
     expect(lesson.exercise.value).toBe(answered);
   });
 
-  it("is not of an exercise that was left before it was read", async () => {
+  it("is not that of an exercise that was closed before it was read", async () => {
     place.value = { kind: "learn", exercise: "observer", step: "" };
     const observer = course({ name: "observer" });
     lesson.exercise.value = observer;
@@ -292,7 +292,7 @@ describe("what is shown of a step", () => {
     expect(lesson.exercise.value).toBe(observer);
   });
 
-  it("keeps no place of one who only watches, and does not complain of it", async () => {
+  it("stores no place for an observer, and reports no problem", async () => {
     calls.putPlace.mockRejectedValue(new RefusedError(403, "An observer changes nothing."));
     await lesson.storePlace("mechanism", "lever");
     expect(lesson.problem.value).toBe("");

@@ -15,12 +15,12 @@ beforeEach(() => {
 });
 
 describe("the text of a law", () => {
-  it("is measured in bytes, as the server does", () => {
+  it("is measured in bytes, as on the server", () => {
     expect(findFault("é".repeat(MAX_BYTES / 2))).toBe("");
     expect(findFault(`${"é".repeat(MAX_BYTES / 2)}#`)).toContain(`${MAX_BYTES + 1} bytes`);
   });
 
-  it("is tried and saved by the server, which reports the result", async () => {
+  it("is tested and saved by the server, which reports the result", async () => {
     const kept = { name: "own-law", law: { text: "law", verdict: "held" } };
     putLaw.mockResolvedValue(kept);
     await lesson.tryLaw("law");
@@ -28,7 +28,7 @@ describe("the text of a law", () => {
     expect(lesson.exercise.value).toBe(kept);
   });
 
-  it("that is refused leaves the one that is kept, and says why", async () => {
+  it("is not saved if it is rejected, with the reason", async () => {
     const before = lesson.exercise.value;
     putLaw.mockRejectedValue(new RefusedError(409, "It was submitted."));
     await lesson.tryLaw("law");

@@ -43,19 +43,19 @@ beforeEach(() => {
   [grades.value, picked.value, job.value, problem.value] = [CLASS, null, null, ""];
 });
 
-describe("the table", () => {
+describe("the table of grades", () => {
   test("has the exercises with a submission, in their order", () => {
     expect(columns.value.map(({ name }) => name)).toEqual(["one", "three"]);
   });
 
-  test("sums what is graded and nothing else", () => {
+  test("sums the graded exercises only", () => {
     const [ada, bob] = CLASS.students as [Grades["students"][0], Grades["students"][0]];
     expect(sumOf(ada)).toEqual({ points: 17.25, maximum: 20 });
     expect(sumOf(bob)).toBeNull();
     expect(ungraded.value).toBe(1);
   });
 
-  test("shows what is picked, and nothing once it is gone", () => {
+  test("shows the selected student, and nothing if the student is gone", () => {
     picked.value = { person: "p-2", exercise: "one" };
     expect(shown.value?.submission.problem).toBe("no bwrap");
     picked.value = { person: "p-2", exercise: "three" };
@@ -67,8 +67,8 @@ describe("the table", () => {
   });
 });
 
-describe("its addresses", () => {
-  test("the page, and a student's report", () => {
+describe("the addresses of the grades", () => {
+  test("lead to the page and to the report of a student", () => {
     expect(readPlace("?grades=all")).toEqual({ kind: "grades" });
     expect(writePlace({ kind: "grades" }, "?leaderboard=fl")).toBe("?grades=all");
     expect(writePlace({ kind: "lab" }, "?grades=all")).toBe("");
@@ -77,7 +77,7 @@ describe("its addresses", () => {
 });
 
 describe("grading", () => {
-  test("is followed until it ends, and then read again", async () => {
+  test("is followed until it ends, and the grades are then read again", async () => {
     vi.useFakeTimers();
     const asked: string[] = [];
     const jobOf = (status: string) => ({ id: "g", kind: "grading", status, done: 1, total: 1 });
@@ -94,7 +94,7 @@ describe("grading", () => {
     vi.useRealTimers();
   });
 
-  test("that is refused says why", async () => {
+  test("reports why it is rejected", async () => {
     const refused = { detail: "Nothing was submitted yet", violations: [] };
     vi.stubGlobal("fetch", async () => ({
       ok: false,

@@ -55,14 +55,14 @@ describe("the order of the entries", () => {
       .map(({ key: name }) => name)
       .join("");
 
-  test("a run that ended early is worse than any error, and what has no value comes last", () => {
+  test("a run that ended early is worse than any error, and a missing value is last", () => {
     expect(orderBy("worst", false)).toBe("cadb");
     expect(orderBy("worst", true)).toBe("bdac");
     expect(orderBy("cost", false)).toBe("abdc");
     expect(orderBy("cost", true)).toBe("abdc");
   });
 
-  test("every column orders, both ways", () => {
+  test("every column is sorted in both directions", () => {
     for (const { key } of COLUMNS) {
       expect([...orderBy(key, false)].sort().join("")).toBe("abcd");
       expect([...orderBy(key, true)].sort().join("")).toBe("abcd");
@@ -72,8 +72,8 @@ describe("the order of the entries", () => {
   });
 });
 
-describe("its address", () => {
-  test("names the board, or the entry whose worst run is looked at", () => {
+describe("the address of the leaderboard", () => {
+  test("names the board, or the entry whose worst run is shown", () => {
     expect(readPlace("?leaderboard=all")).toEqual({ kind: "leaderboard", entry: "" });
     expect(readPlace("?leaderboard=fl")).toEqual({ kind: "leaderboard", entry: "fl" });
     expect(writePlace({ kind: "leaderboard", entry: "" }, "?ranking=all")).toBe("?leaderboard=all");
@@ -81,13 +81,13 @@ describe("its address", () => {
     expect(writePlace({ kind: "lab" }, "?leaderboard=fl&session=x")).toBe("?session=x");
   });
 
-  test("a replay opens at a moment", () => {
+  test("opens a replay at a time", () => {
     expect(atMoment("http://lab/replay", 0)).toBe("http://lab/replay");
     expect(atMoment("http://lab/replay", 5.5)).toBe("http://lab/replay?t=5.5");
   });
 });
 
-describe("what the page does", () => {
+describe("the actions of the page", () => {
   const season = { suite: "1", began: "", not_isolated: null, runs: 3, missing: [] };
   const asked: string[] = [];
   let answers: Record<string, unknown[]> = {};
@@ -137,7 +137,7 @@ describe("what the page does", () => {
     sort.value = "rank";
   });
 
-  test("a law's entry is on the board while the lab's own laws are measured after it", async () => {
+  test("the entry of a law is listed while the laws of the lab are measured after it", async () => {
     board.value = { ...season, entries: [] };
     const going = { ...jobOf("running", 3), title: "B" };
     answers = {
@@ -159,7 +159,7 @@ describe("what the page does", () => {
     expect(isEntered.value).toBe(false);
   });
 
-  test("the reason of a law that fails stays with its job", async () => {
+  test("the reason of a failed law stays with its job", async () => {
     answers = {
       "POST leaderboard/submissions": [{ key: "x", job: jobOf("running", 0) }],
       "GET jobs/j": [jobOf("failed", 0, "line 2: NameError")],
@@ -171,7 +171,7 @@ describe("what the page does", () => {
     expect(job.value?.problem).toBe("line 2: NameError");
   });
 
-  test("a text that has its entry is reported, and no job is followed", async () => {
+  test("a text that already has an entry is reported, and no job is followed", async () => {
     answers = {
       "POST leaderboard/submissions": [{ key: "b", job: null }],
       "GET leaderboard": [{ ...season, entries: ENTRIES }],
@@ -181,13 +181,13 @@ describe("what the page does", () => {
     expect(asked).toEqual(["POST leaderboard/submissions", "GET leaderboard"]);
   });
 
-  test("what the lab refuses is said", async () => {
+  test("a rejection by the lab is shown", async () => {
     answers = { "POST leaderboard/submissions": [{ refused: "it cannot be isolated" }] };
     expect(await submit(wish)).toBe(false);
     expect(problem.value).toContain("it cannot be isolated");
   });
 
-  test("after a reload a submission under way is taken up, and one that is left is not", async () => {
+  test("after a reload a running submission is followed again, and a discarded one is not", async () => {
     answers = {
       "GET leaderboard": [{ ...season, entries: ENTRIES }],
       "GET jobs": [
@@ -204,7 +204,7 @@ describe("what the page does", () => {
     expect(job.value?.status).toBe("running");
   });
 
-  test("an entry of another season is none", () => {
+  test("an entry of another season is ignored", () => {
     board.value = { ...season, entries: ENTRIES };
     place.value = { kind: "leaderboard", entry: "c" };
     expect(looked.value?.key).toBe("c");
