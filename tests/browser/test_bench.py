@@ -142,7 +142,7 @@ def test_load_button_only_marks_the_load_on_a_real_bench(
 ) -> None:
     patched.become(emulated=False, status="run", homing=HOMED)
     page.get_by_role("button", name=re.compile("I hung 3 kg")).click()
-    expect(page.get_by_role("button", name=re.compile("I took 3 kg off"))).to_be_visible()
+    expect(page.get_by_role("button", name=re.compile("I removed 3 kg"))).to_be_visible()
     assert still_lab.read()["loads"][0]["load"]["kind"] == "mass"
 
 

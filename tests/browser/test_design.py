@@ -94,7 +94,7 @@ def test_unstable_poles_have_a_reason_and_cannot_be_applied(page: Page, panel: L
 
 @pytest.mark.exhaustive
 def test_map_is_completed(panel: Locator) -> None:
-    panel.get_by_role("button", name="Fill the map").click()
+    panel.get_by_role("button", name="Compute map").click()
     reported = panel.get_by_text("21.3 % of 961 initial states converge, on the rig")
     expect(reported).to_be_visible(timeout=WORKER_MS)
 

@@ -32,7 +32,7 @@ def grade(page: Page, lab: Lab) -> Locator:
     """Grade the submissions by keyboard, and open Ada's points in the table."""
     open_page(page, lab)
     go_to_page(page, "Grades")
-    table = page.get_by_role("region", name="Points, a student a row")
+    table = page.get_by_role("region", name="Points: one row per student")
     for student in ("Ada", "Bob"):
         row = table.get_by_role("row", name=student)
         expect(row.get_by_role("button", name="not graded")).to_be_visible()

@@ -22,7 +22,7 @@ def test_change_by_a_script_during_typing_is_reported_and_kept(page: Page, lab: 
     lab.client.put(lab.session + "/position", json=theirs).raise_for_status()
     field.press("Enter")
     reported = motion.get_by_role("alert").filter(has_text="Another user changed this value")
-    expect(reported).to_contain_text("Present value: Frequency 0.25 Hz.")
+    expect(reported).to_contain_text("Current value: Frequency 0.25 Hz.")
     expect(field).to_have_value("0.25")
     assert lab.read()["configuration"]["position"]["frequency_hz"] == 0.25
     with page.expect_response("**/position"):

@@ -29,7 +29,7 @@ export const armText = {
     remove: (mass: string) => `Remove ${mass} kg`,
     short: "at the tip of the arm",
     mass: "Mass at the tip",
-    does: "The button hangs a mass at the tip. A push: drag the tip in the picture of its plane.",
+    does: "The button hangs a mass at the tip. To push the tip, drag it in the picture of its plane.",
     plane: "Tip",
     planeLabel: "The arm from the front: links, path of the tip and of its reference",
     push: "Push the tip: drag it, or hold an arrow key",
@@ -41,8 +41,9 @@ export const armText = {
     kilonewtons: "kN/m",
     straight: "none: the arm is straight",
     ellipseHint:
-      "Force for a small displacement of the tip, by direction. The half axes grow with the root of the stiffness.",
-    noWebGl: "This browser has no WebGL, which the 3D view needs. The same arm in its plane.",
+      "Force for a small displacement of the tip, by direction. The half axes grow with the square root of the stiffness.",
+    noWebGl:
+      "This browser has no WebGL, which the 3D view needs. The picture shows the same arm in its plane.",
     lead: "Two actuators in series as the joints of an arm in a vertical plane.",
     choose: "Arm",
     actuatorOf: (joint: number) => `Actuator of joint ${joint}`,

@@ -1,8 +1,8 @@
 /** Texts of a bench, its marks, and the quick stop. */
 export const benchText = {
   mark: {
-    emulated: { name: "EMULATED", title: "Emulator", means: "no metal moves" },
-    real: { name: "REAL BENCH", title: "Real bench", means: "metal moves: keep clear" },
+    emulated: { name: "EMULATED", title: "Emulator", means: "no hardware moves" },
+    real: { name: "REAL BENCH", title: "Real bench", means: "hardware moves: keep clear" },
     unknown: {
       name: "BENCH",
       title: "Bench",
@@ -14,7 +14,7 @@ export const benchText = {
     keys: "Shift + Esc",
     sending: "Stopping…",
     confirmed: "Stopped",
-    refused: "Refused",
+    refused: "Rejected",
     again: "Not confirmed: press again",
     doesBench:
       "Zero current in both drives at once, without the ramp (Shift + Esc, anywhere). It is software: the emergency stop is the button on the bench that cuts the motors' supply.",
@@ -35,8 +35,8 @@ export const benchText = {
     ],
     lostTitle: "The bench has lost its control loop.",
     lostSteps: [
-      "If anything still moves, pull the motors' supply.",
-      "Read why it was lost, and make sure that the link can reach no person.",
+      "If anything still moves, disconnect the motors' supply.",
+      "Read why the loop was lost, and make sure that the link cannot hit a person.",
       "Restart the loop, arm, confirm the marks, and run.",
     ],
     lastKnown: "No connection. Last known:",
@@ -44,7 +44,7 @@ export const benchText = {
     goOn: "To continue",
     steps: [
       "If anything still moves, press the emergency stop on the bench, which cuts the motors' supply: the quick stop is software.",
-      "Read why it was stopped, and make sure that the link can reach no person.",
+      "Read why the bench was stopped, and make sure that the link cannot hit a person.",
       "Clear the fault, arm, confirm the marks where the bench asks for them, and run.",
     ],
   },
@@ -84,24 +84,24 @@ export const benchText = {
     restartHint:
       "End loop and supervisor, by force if necessary, and start both; takes a few seconds",
     advice: {
-      problems: "It cannot be armed yet: see the problems listed.",
+      problems: "The bench cannot be armed yet: see the listed problems.",
       loop: "The control loop does not tick. Restart it when it is safe.",
       notOpened: "The bench could not be opened. Fix the cause and restart the loop.",
-      starting: "It accepts no commands yet.",
+      starting: "The bench accepts no commands yet.",
       unsupervised: "No message from the supervisor: do not arm.",
-      unheard: "It may be armed, but the deflection encoder sends no data.",
-      arm: "It may be armed.",
-      wait: "The drives are coming up…",
+      unheard: "The bench can be armed, but the deflection encoder sends no data.",
+      arm: "The bench can be armed.",
+      wait: "The drives are starting…",
       home: "Confirm the zero marks.",
-      run: "Run it.",
-      hold: "Hold the dead-man's switch, and run it.",
-      running: "The controller has the motors.",
-      ramping: "The torque goes to zero…",
+      run: "Press Run.",
+      hold: "Hold the dead-man's switch, and press Run.",
+      running: "The controller drives the motors.",
+      ramping: "The torque ramps to zero…",
       clear: "Clear the fault when it is safe.",
     },
     unknown: "Unknown",
     lastHeard: (state: string) => `No connection. Last known: ${state}.`,
-    watch: "An operator must watch while it runs.",
+    watch: "An operator must watch the bench while it runs.",
     details: "Details",
     problems: "Arming is blocked by",
     homing: {

@@ -8,7 +8,7 @@ export const classroomText = {
     token: "Instructor token",
     ways: {
       student: "Join with the class code",
-      back: "Come back with a rejoin code",
+      back: "Rejoin with a rejoin code",
       instructor: "I am the instructor",
     },
     rejoinCode: "Your rejoin code",
@@ -20,7 +20,7 @@ export const classroomText = {
     newRejoinCodeHint:
       "Gives access to your runs and exercises from another browser; the previous code becomes invalid",
     youAreRemoved:
-      "The instructor has removed you from the class. Talk to them: they can let you in again.",
+      "The instructor has removed you from the class. Ask them to restore your access.",
     freeTitle: "No user is in control.",
     lockedTitle: "The instructor has locked control.",
     lockedByYou: "Only you command the shared session until you unlock it.",
@@ -32,12 +32,12 @@ export const classroomText = {
     goesOn: (seconds: number) =>
       `Control passes on automatically if you send no command for ${Math.round(seconds)} s.`,
     placeText: (place: number, count: number) =>
-      place === 1 ? "You are next." : `You are number ${place} of ${count} who wait.`,
+      place === 1 ? "You are next." : `You are number ${place} of ${count} in the queue.`,
     handOver: (name: string) => `Hand over to ${name}`,
     open: "Class",
-    openHint: "Who is here, who waits, and your own sessions",
+    openHint: "Members, queue, and your own sessions",
     panelTitle: "The class",
-    here: (count: number) => `Here: ${count}`,
+    here: (count: number) => `Active: ${count}`,
     name: "Name",
     role: "Role",
     roles: { observer: "Observer", operator: "Student", instructor: "Instructor" },
@@ -52,8 +52,8 @@ export const classroomText = {
     removed: "Removed",
     removedHint:
       "They are removed, but can join again under another name with the class code: make a new code to prevent this.",
-    restore: (name: string) => `Let ${name} in again`,
-    restoreShort: "Let in again",
+    restore: (name: string) => `Restore ${name}`,
+    restoreShort: "Restore",
     queue: "Waits for control",
     queueEmpty: "The queue is empty.",
     give: (name: string) => `Give control to ${name}`,
@@ -142,25 +142,25 @@ export const classroomText = {
 export const gradesText = {
   grades: {
     title: "Grades",
-    lead: "Submissions are run again on the server: recorded runs bit for bit from their records, control laws in an isolated process on trials drawn from the class's secret and the submission.",
+    lead: "Submissions are run again on the server: recorded runs bit for bit from their records, control laws in an isolated process on trials whose seed follows from the class's secret and the submission.",
     loading: "Loading the grades …",
     empty: "No submission yet",
     emptyHint: "Exercises that students submit in Learn appear here for grading.",
     notIsolated:
       "This machine cannot isolate submitted laws: exercises with a law are not graded, all others are.",
-    table: "Points, a student a row, an exercise a column",
+    table: "Points: one row per student, one column per exercise",
     tableHint: "Select points to see them by criterion; a name opens the student's report",
     student: "Student",
     sum: "Total",
     nothing: "–",
     ungraded: "not graded",
-    refused: "refused",
+    refused: "rejected",
     of: (points: string, most: string) => `${points} of ${most}`,
     report: (name: string) => `Report of ${name}, in a new tab`,
     pick: "Select points in the table to see them by criterion.",
     noGrade: "Not graded:",
     keptGrade: "Grading again failed; the previous grade is kept:",
-    notYet: "It is not graded yet.",
+    notYet: "This exercise is not graded yet.",
     run: (id: string) => `Run ${id}.`,
     made: (submission: string, seed: string | null, version: string) =>
       `Submission ${submission}…${seed === null ? "" : `, trials of seed ${seed}`}; SVSA Lab ${version}.`,

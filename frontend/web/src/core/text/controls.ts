@@ -56,7 +56,7 @@ export const controlsText = {
     },
     does: {
       steps: "Each step rises smoothly in 0.2 s.",
-      series: "A spline of degree 7 through every row, from rest to rest.",
+      series: "A spline of degree 7 connects all rows and starts and ends at rest.",
     },
     openCsv: "Open CSV…",
     pasteCsv: "Time series as CSV",
@@ -78,7 +78,7 @@ export const controlsText = {
       `${least} to ${greatest} ${unit} in ${end} s, at most ${rate} ${unit}/s`,
     apply: "Apply",
     again: "Restart",
-    againHint: "Restart the present reference from its beginning",
+    againHint: "Restart the current reference from its beginning",
     notApplied: (kind: string) => `Active: ${kind}. The settings shown here are not applied yet.`,
     following: (kind: string, fadeS: number) =>
       `Active: ${kind}. It fades in over ${fadeS} s, then starts; its last value is held.`,
@@ -111,7 +111,7 @@ export const controlsText = {
     hangs: "3 kg hang on the link",
     acts: "2 N·m act on link and motors",
     markHung: "I hung 3 kg",
-    markRemoved: "I took 3 kg off",
+    markRemoved: "I removed 3 kg",
     mark: "marks it in the data",
     marked: "marked as hanging",
     markDoes: "Hang 3 kg on the link by hand, then press the button to mark the time.",
@@ -155,7 +155,7 @@ export const lawsText = {
     groups: {
       none: "Without ŵ: by feedback, an integral or an extended state",
       observer: "With the observer's estimate ŵ",
-      own: "With an estimate of their own",
+      own: "With their own estimate",
     },
   },
   comparisons: {

@@ -44,7 +44,8 @@ export const designText = {
       rig: "Quantization of the paper's encoders with one sample of delay, propagated through the loop, rms",
     },
     peak: (torque: string) => `Peak ${torque} at the load`,
-    peakHint: "Simulated for 1.5 s around 3 kg, in the present configuration, without limits",
+    peakHint:
+      "Simulated for 1.5 s around the onset of 3 kg, with the current configuration, without limits",
     atLimit: "At a limit for",
     none: "no equilibrium",
     unstableLoop: "unstable",

@@ -7,12 +7,12 @@ export const leaderboardText = {
     loading: "Loading the leaderboard …",
     empty: "No law has been submitted in this season yet",
     emptyHint:
-      "Paste a law into the form, choose a file, or use the command below. A law takes a dozen lines; the form contains a complete example.",
+      "Paste a law into the form, choose a file, or use the command below. A law needs about twelve lines; the form contains a complete example.",
     published: "Published ranking",
     publishedHint:
       "The season begins with the first submission or measurement; its entries then replace this table. The published trials are not those of the season.",
     entries: "Entries",
-    table: "Rank, success rate, cost and worst run, a law a row",
+    table: "Rank, success rate, cost and worst run: one row per law",
     tableHint:
       "Select a heading to sort by it, or a worst run to see it in 3D, compared with NDOBC. The rank is always by success rate.",
     columns: {
@@ -38,11 +38,11 @@ export const leaderboardText = {
       },
       cost: {
         name: "Time per tick, µs",
-        hint: "Median time of a tick by this machine's clock, with plant and sensors; of a submitted law also the way to its process and back, so compare it with other submitted ones only",
+        hint: "Median time of a tick by this machine's clock, with plant and sensors. For a submitted law it includes the communication with its process: compare submitted laws with each other only",
       },
       worst: {
         name: "Worst run",
-        hint: "Of the public scenarios: the greatest rms error, or the first that ended early. The hidden trials are not shown",
+        hint: "Of the public scenarios: the largest rms error, or the first that ended early. The hidden trials are not shown",
       },
       entered: { name: "Measured", hint: "When, in your time" },
     },

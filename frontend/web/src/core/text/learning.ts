@@ -48,7 +48,7 @@ export const learningText = {
     again: "Run again",
     run: "Run and record",
     setUpHint: "Applies the settings of this step and resets to time 0",
-    runHint: "Runs from time 0 with the present settings and records to the end",
+    runHint: "Runs from time 0 with the current settings and records to the end",
     free: (what: string) => `Free settings: ${what}.`,
     freeNames: {
       law: "law",
@@ -135,7 +135,7 @@ export const learningText = {
     viewIn2d: {
       title: "The actuator",
       words:
-        "The thick line is the link, seen from the front; the dotted line is where it should be. The circle is the axis of the motors.",
+        "The thick line is the link from the front; the dotted line is its reference. The circle is the axis of the motors.",
     },
     steps: {
       welcome: {
@@ -211,7 +211,7 @@ export const learningText = {
     },
   },
   claims: {
-    heading: "Does the paper hold?",
+    heading: "Claims of the paper",
     explanation:
       "Runs the figure with both laws in a separate session as fast as possible and compares the result with the claim. Your session is not affected.",
     check: (figure: string) => `Check ${figure}`,
@@ -235,7 +235,7 @@ export const learningText = {
     holdsNot: "fails",
     holdsSign: "✓",
     holdsNotSign: "✕",
-    overall: { holds: "The claim holds.", fails: "Not all of the claim holds." },
+    overall: { holds: "The claim holds.", fails: "Parts of the claim do not hold." },
     parts: {
       alike_before: "Both laws track well before the load: below 0.1°",
       fl_poor: "FL tracks poorly after it: more than ten times its error before",

@@ -1,9 +1,10 @@
 /** The metrics of a window of a run, as the server defines them (`svsa.runs.metrics.Metrics`). */
 
 const recovery =
-  "Time from the start of the window until the error has stayed within 2 % of its peak for 0.5 s. What comes later does not change it.";
+  "Time from the start of the window until the error has stayed within 2 % of its peak for 0.5 s. Later changes do not affect it.";
 const rise = "Time in which the output goes from 10 % to 90 % of the step of the reference";
-const overshoot = "Largest excess over the new level until the output has settled, of the step";
+const overshoot =
+  "Largest excess over the new level until the output has settled, relative to the step";
 const settling =
   "Time from the first change of the reference until the output has stayed within 2 % of the step around the new level for 0.5 s. The fade of the reference is part of it.";
 
@@ -27,10 +28,10 @@ export const metricsText = {
     effort: "N²·m²·s",
   },
   rms: { name: "rms error", hint: "Root mean square over the window" },
-  peak: { name: "Peak deviation", hint: "Largest size of the error in the window" },
+  peak: { name: "Peak deviation", hint: "Largest absolute error in the window" },
   peakShare: {
     name: "Peak deviation, relative",
-    hint: "Largest size of the stiffness error in the window, relative to the reference",
+    hint: "Largest absolute stiffness error in the window, relative to the reference",
   },
   steady: {
     name: "Steady-state error",
@@ -41,17 +42,17 @@ export const metricsText = {
   rise: { name: "Rise time", hint: rise },
   overshoot: { name: "Overshoot", hint: overshoot },
   settling: { name: "Settling time", hint: settling },
-  rmsTorque: { name: "rms torque", hint: "Of the actual torque, over the window" },
-  peakTorque: { name: "Peak torque", hint: "Largest size of the actual torque" },
+  rmsTorque: { name: "rms torque", hint: "Root mean square of the actual torque over the window" },
+  peakTorque: { name: "Peak torque", hint: "Largest absolute value of the actual torque" },
   effort: {
     name: "Control effort",
     hint: "∫(u₁² + u₂²) dt; the heat of each motor’s windings follows its term",
   },
   work: {
     name: "Mechanical work",
-    hint: "∫(|u₁ θ̇₁| + |u₂ θ̇₂|) dt, without recovery. The losses of the windings are not in it: their resistance is not known.",
+    hint: "∫(|u₁ θ̇₁| + |u₂ θ̇₂|) dt, without energy recovery. The losses of the windings are not included, because their resistance is not known.",
   },
-  variation: { name: "Total variation", hint: "Σ|Δu| a second: how much the torque chatters" },
+  variation: { name: "Total variation", hint: "Σ|Δu| per second: how much the torque chatters" },
   noise: {
     name: "Torque noise at rest",
     hint: "Standard deviation of the torque over the last 0.5 s of the window",
@@ -61,7 +62,7 @@ export const metricsText = {
     lane: "This lane has no numbers in the window.",
     tooShort: "Not defined: the window is shorter than 1 s.",
     loadEnded: "Not defined: the load ended within the window.",
-    undisturbed: "Not defined: no load came on or was removed at the start of the window.",
+    undisturbed: "Not defined: no load was added or removed at the start of the window.",
     outside: "Not yet: the error has not stayed within 2 % of its peak for 0.5 s.",
     unmoved: "Not defined: the stiffness error never exceeded 0.01 N·m/rad.",
     lost: (seconds: string) =>

@@ -62,7 +62,7 @@ export const pageText = {
     pause: "Pause",
     either: "Run / Pause",
     reset: "Reset",
-    resetHint: "Return to time 0 with the present settings",
+    resetHint: "Return to time 0 with the current settings",
     step: "Step",
     stepHint: "Advance by one step while paused",
     stepLength: "Length of a step",
@@ -104,7 +104,7 @@ export const pageText = {
     ended: "Ended",
     waiting: "Waiting for the lab…",
     lostTitle: "Connection lost.",
-    lostText: "The present state of the lab is unknown. Reconnecting …",
+    lostText: "The current state of the lab is unknown. Reconnecting …",
     anotherTitle: "This is a new session.",
     anotherText:
       "The previous session has ended, or the server restarted. Settings are the defaults; recordings are under Runs.",
@@ -126,7 +126,7 @@ export const pageText = {
   },
   meanwhile: {
     changed: "Another user changed this value; your change was not applied.",
-    now: (list: string) => `Present value: ${list}.`,
+    now: (list: string) => `Current value: ${list}.`,
     shown: "Their value is active.",
     law: (title: string) => `law ${title}`,
     value: (label: string, value: string) => `${label} ${value}`,

@@ -209,7 +209,7 @@ export const plotsText = {
       name: "Mark to recovery",
       hint: "Time from the mark of the load to an error within 2 % of its peak, delay until the load acts included",
     },
-    undisturbed: "No load came on or was removed at the start of this window",
+    undisturbed: "No load was added or removed at the start of this window",
     recoveryFrom: (load: string) =>
       `Time from ${load} until the error stayed within 2 % of its peak`,
     notYet: "not yet",

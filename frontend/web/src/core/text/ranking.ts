@@ -9,7 +9,7 @@ export const rankingText = {
     loading: "Loading the results …",
     law: "Law",
     declared: (title: string) => `${title}, declared gains`,
-    table: "Success rates, rank and fixed scenarios, a law a row",
+    table: "Success rates, rank and fixed scenarios: one row per law",
     tableHint:
       "A heading sorts by its column, a law shows its details below, a fixed scenario opens its worst run",
     provenance: (of: {

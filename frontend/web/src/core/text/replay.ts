@@ -19,7 +19,7 @@ export const text = {
     heading: "Playback",
     play: "Play",
     pause: "Pause",
-    keys: "Space plays and pauses, arrows go by a frame, with Shift by a second, Home and End",
+    keys: "Space plays and pauses. Arrows move by a frame, with Shift by a second. Home and End move to the ends",
     time: "Time",
     of: (duration: string) => `of ${duration}`,
     speed: "Speed",
@@ -53,14 +53,14 @@ export const text = {
     version: "version",
     drawn: (stride: number) =>
       stride === 1
-        ? "The curves have every sample of the run."
-        : `The curves show one of ${stride} samples, and the peaks in between.`,
+        ? "The curves show every sample of the run."
+        : `The curves show one of every ${stride} samples, and the peaks between them.`,
     empty: "none",
     more: (count: number) => `and ${count} more`,
   },
   plots: {
     ...plotsText.plots,
-    hint: "Click: go there. Drag: zoom in. Double click: whole run.",
+    hint: "Click: go to this time. Drag: zoom in. Double click: whole run.",
     choose: (title: string) => `${title}: which one`,
   },
 } as const;

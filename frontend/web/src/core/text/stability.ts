@@ -6,8 +6,8 @@ export const stabilityText = {
     slowestHint:
       "Largest real part of the closed-loop poles at rest, in continuous time, with the true plant and the observer; stable below 0",
     rate: (value: string) => `${value} rad/s`,
-    damping: "Least damping",
-    dampingHint: "Least −Re s / |s| of these poles: 1 without oscillation",
+    damping: "Smallest damping ratio",
+    dampingHint: "Smallest −Re s / |s| of these poles: 1 without oscillation",
     gain: "Error per unit load rate",
     gainHint:
       "Error of the linear loop under a link torque that increases by 1 N·m/s; a constant torque causes none",
@@ -94,7 +94,7 @@ export const stabilityText = {
     regionAxes: "q̇₀ (rad/s) against q₀",
     regionStiffness: "Stiffness σ of the map, N·m/rad",
     law: "Law",
-    fill: "Fill the map",
+    fill: "Compute map",
     stop: "Stop",
     looks: { rest: "converged", fault: "fault", unsettled: "not within 2 s" },
     regionEmpty: "961 initial states, one simulation each.",

@@ -17,7 +17,7 @@ export const studiesText = {
     nameHint: "1 to 64 letters, digits, -, _ or .; default: the study's name",
     runs: "Samples",
     runsHint:
-      "Number of samples, each run under every law; default: as defined in the study. For a grid: repetitions of the whole grid",
+      "Number of samples, each run under every law; default: as defined in the study. For a grid: repetitions of the complete grid",
     laws: "Laws",
     lawsHint: "Default: the laws of the study",
     metrics: "Metrics",
@@ -62,7 +62,7 @@ export const studiesText = {
     everyLaw: "all laws, overlaid",
     mapScale: (share: number) => `${share} %`,
     distribution: "Cumulative distribution",
-    distributionHint: "runs with a fault count as never below",
+    distributionHint: "a run with a fault counts as larger than any value",
     metric: "Metric",
     below: "Runs below, %",
     brushed: (count: number, total: number) =>

@@ -76,7 +76,7 @@ describe("a setting that another user changes concurrently", () => {
     server.change({ amplitude_rad: Math.PI / 4 });
     expect(await page.set({ frequency_hz: 0.5 })).toBe(false);
     expect(page.problem.value?.message).toBe(
-      "Another user changed this value; your change was not applied. Present value: Amplitude 45 deg.",
+      "Another user changed this value; your change was not applied. Current value: Amplitude 45 deg.",
     );
     expect(page.session.value?.configuration.position).toEqual(server.held.configuration.position);
     expect(server.held.configuration.position.frequency_hz).toBe(0.2);
@@ -152,7 +152,7 @@ describe("a law that another user has set", () => {
     const { describeChange, isSame } = await import("../../../src/core/state/conflicts");
     const before = stateAt("1.0") as never;
     const now = stateAt("1.1", SINE, "fl") as never;
-    expect(describeChange("/law", before, now)).toContain("Present value: law fl.");
+    expect(describeChange("/law", before, now)).toContain("Current value: law fl.");
     expect(isSame("/law", before, now)).toBe(false);
     expect(isSame("/lanes/2", before, now)).toBe(true);
   });
