@@ -81,7 +81,7 @@ class ParameterError(SvsaError, ValueError):
 
 
 class StateError(SvsaError):
-    """A call that the present state of the session does not allow; the message has the remedy."""
+    """A call that the current state of the session does not allow; the message has the remedy."""
 
 
 class SecurityError(SvsaError):
@@ -135,7 +135,7 @@ def _shorten(value: Any, longest: int = 80) -> str:
 
 
 def settle_number(value: float, digits: int) -> float:
-    """Round a number to so many digits, so that all machines print the same."""
+    """Round a number to `digits` digits, so that all machines print the same."""
     return float(f"{value:.{digits}g}")
 
 

@@ -60,8 +60,8 @@ _log = logging.getLogger("svsa")
 MAX_GRADINGS = 2
 _DESCRIPTION = (
     "Position and stiffness control of a serial variable stiffness actuator. SI units; every"
-    " field ends in its unit. A refused request changes nothing and says name, value, unit and"
-    " bound. Where the lab has a shared secret, send it as a bearer token."
+    " field ends in its unit. A rejected request changes nothing; the answer has name, value, unit"
+    " and bound. If the lab has a shared secret, send it as a bearer token."
 )
 
 

@@ -41,7 +41,7 @@ class CallBridge:
         self._start: Message | None = None
 
     def end(self) -> None:
-        """Pass no more messages: another answer is sent instead of the application's."""
+        """Stop passing messages: another answer replaces that of the application."""
         self._is_over = True
 
     async def receive(self) -> Message:
@@ -109,7 +109,7 @@ class AppThread:
         self._thread.start()
 
     def call(self, scope: Scope, bridge: CallBridge) -> asyncio.Future[None]:
-        """Call the application in its event loop; to cancel the future cancels the call."""
+        """Call the application in its event loop; cancelling the future cancels the call."""
         call = self._call(scope, bridge)
         return asyncio.wrap_future(asyncio.run_coroutine_threadsafe(call, self._loop))
 
@@ -129,7 +129,7 @@ class AppThread:
         self._loop.call_later(BEAT_S, self._beat)
 
     async def stop(self) -> None:
-        """Cancel the calls that are left, and end the thread within `STOP_S`."""
+        """Cancel the remaining calls, and end the thread within `STOP_S`."""
         left = asyncio.run_coroutine_threadsafe(_cancel_others(), self._loop)
         with contextlib.suppress(TimeoutError):
             await asyncio.wait_for(asyncio.wrap_future(left), STOP_S)

@@ -25,7 +25,7 @@ _PLANT = re.compile(r"\bBlocks\((\w+)")
 """The plant of each joint in the types of the loop of an arm."""
 _compiling = asyncio.Lock()
 _begun: list[float] = []
-"""Time at which the present compilation began; empty if there is none."""
+"""Time at which the current compilation began; empty if there is none."""
 
 
 def find_compiling_s() -> float | None:
@@ -44,7 +44,7 @@ def is_compiled_for(actuator: str, law: str) -> bool:
 async def compile_for(actuator: str, law: str) -> None:
     """Compile the loop and a law for an actuator in a process of its own.
 
-    The compiler would hold back the sessions of this one for its whole time. One process at a time;
+    The compiler would delay the sessions of this process as long as it runs. One process at a time;
     what it could not compile is compiled, and reported, by the session.
     """
     async with _compiling:

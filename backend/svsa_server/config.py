@@ -162,11 +162,11 @@ class Settings(BaseSettings):
 
     @property
     def host_names(self) -> frozenset[str]:
-        """The names in `hosts`, in small letters."""
+        """The names in `hosts`, in lower case."""
         return frozenset(name.strip().lower() for name in self.hosts.split(",") if name.strip())
 
     def check_root_path(self) -> None:
-        """Raise `ParameterError` where it is no path."""
+        """Raise `ParameterError` if it is not a path."""
         if not _ROOT_PATH.fullmatch(self.root_path):
             bound = "a path that begins with / and does not end with one, such as /svsa"
             raise ParameterError(Violation("--root-path", self.root_path, "", bound))

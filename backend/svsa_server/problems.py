@@ -30,7 +30,7 @@ TITLES = {
     "record": "The record cannot be read",
     "study": "It does not fit the study as it is",
     "storage": "It cannot be stored",
-    "busy": "Too much is being made already",
+    "busy": "Too much work is in progress",
     "silent": "The sessions do not respond",
     "websocket": "This is a WebSocket",
     "wrong_secret": "The secret is wrong",
@@ -50,23 +50,23 @@ TITLES = {
 
 
 class UnknownError(SvsaError):
-    """A thing that does not exist was named."""
+    """The request names an object that does not exist."""
 
 
 class ChangedError(SvsaError):
-    """The thing was changed by another client meanwhile; that change stays."""
+    """Another client has changed the object since; that change is kept."""
 
 
 class NotYoursError(SvsaError):
-    """The caller may read a thing, but not change it; nothing was changed."""
+    """The caller may read the object, but not change it; nothing was changed."""
 
 
 class TooManyError(SvsaError):
-    """A person has reached the limit of a quota; nothing was made."""
+    """A person has reached the limit of a quota; nothing was created."""
 
 
 class ViolationModel(BaseModel):
-    """One refused value."""
+    """One rejected value."""
 
     name: str = Field(
         examples=["frequency_hz"],
@@ -87,7 +87,7 @@ class ViolationModel(BaseModel):
 
 
 class Problem(BaseModel):
-    """Why a request was refused (RFC 9457); nothing was changed."""
+    """Why a request was rejected (RFC 9457); nothing was changed."""
 
     type: str = Field(
         examples=[TYPE_PREFIX + "out_of_range"], description="The kind of problem, for programs"
@@ -135,7 +135,7 @@ def answer_violations(violations: Sequence[Violation], place: str = "") -> JSONR
 
 
 def build_violation(violation: Violation) -> ViolationModel:
-    """A refused value on the wire."""
+    """A rejected value on the wire."""
     return ViolationModel(
         name=violation.name,
         value=_make_safe(violation.value),

@@ -115,7 +115,7 @@ def _load_module(mechanism: Mechanism) -> ModuleType:
 
 
 def _compute_digest(mechanism: Mechanism) -> str:
-    """What changes with the energy, or with how it is differentiated."""
+    """Compute a digest that changes with the energy, or with the code that differentiates it."""
     code = mechanism.energy.__code__
     digest = hashlib.sha256(Path(__file__).read_bytes())
     for used in (write_source, find_address):

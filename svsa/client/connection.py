@@ -30,7 +30,7 @@ class ControlError(StateError):
 
 
 class LostAnswerError(LabError):
-    """The answer was lost; the message has what is known of the request."""
+    """The answer was lost; the message has the known state of the request."""
 
 
 _BY_KIND: dict[str, type[SvsaError]] = {
@@ -180,7 +180,7 @@ class Connection:
         )
 
     def _read_outcome(self, name: str) -> Any:
-        """Query the outcome of a request; None if the lab does not know it.
+        """Query the outcome of a request; None if the lab has no record of it.
 
         A busy or restarting lab, or a proxy in front of it, may give other answers, and the query
         is repeated; if the lab rejects the caller, it is not.

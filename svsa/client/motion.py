@@ -40,7 +40,7 @@ class RunningConnection(ControlledConnection):
         self.call("POST", "/quick-stop")
 
     def reset(self) -> None:
-        """Restart at t = 0 with the present settings."""
+        """Restart at t = 0 with the current settings."""
         self.call("POST", "/reset")
 
     def set_speed(self, speed: float | Literal["max"]) -> None:

@@ -45,7 +45,7 @@ class RemoteSession(RunningConnection):
     """A session by its name; every property is read from the lab.
 
     Setting a property returns when the lab has accepted it; `applied_at` is the tick at which it
-    takes effect. Setting the present value changes nothing: no new transition or event. If the lab
+    takes effect. Setting the current value changes nothing: no new transition or event. If the lab
     rejects a value, `ParameterError` or `StateError` is raised and nothing changes.
     """
 
@@ -74,12 +74,12 @@ class RemoteSession(RunningConnection):
 
     @property
     def tick(self) -> int:
-        """Present tick of the run, from t = 0."""
+        """Current tick of the run, from t = 0."""
         return self.read_state()["tick"]
 
     @property
     def time_s(self) -> float:
-        """Present time of the run, s."""
+        """Current time of the run, s."""
         return self.read_state()["time_s"]
 
     @property
@@ -108,7 +108,7 @@ class RemoteSession(RunningConnection):
         return RemoteSession(self.connection, self._runs, self.name, number)
 
     def change_arm(self, **fields: Any) -> None:
-        """Change the arm of the session; what is left out stays.
+        """Change the arm of the session; omitted fields are unchanged.
 
         Feedforward and adaptation act at once; tip, links and model restart the run at t = 0.
 
@@ -239,7 +239,7 @@ class RemoteSession(RunningConnection):
 
     @property
     def nominal(self) -> MechanismParameters:
-        """The model that law and observer believe in."""
+        """The nominal model of law and observer."""
         return _ACTUATOR.validate_python(self._read("nominal"))
 
     @nominal.setter

@@ -150,7 +150,7 @@ class BlockStream:
 
     @contextmanager
     def _outlast_break(self) -> Iterator[None]:
-        """Ignore a broken connection up to the patience; then raise `LabError`."""
+        """Tolerate a broken connection until the timeout; then raise `LabError`."""
         try:
             yield
         except _BROKEN as error:

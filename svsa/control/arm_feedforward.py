@@ -1,4 +1,4 @@
-"""Arm feedforward: what the arm's model explains of w2 along the references, for any control law.
+"""Arm feedforward: the part of w2 that the arm's model predicts along the references, for any law.
 
 The nominal model of a joint has a constant link inertia M. Along the references the arm's model
 leaves the torque

@@ -20,7 +20,7 @@ QUANTITIES = {
     "peak_position_error_rad": ("rad", "Largest |q_d − q|"),
     "last_position_error_rad": ("rad", "|q_d − q| in the last sample"),
     "steady_state_position_error_rad": ("rad", "rms of q_d − q over the last 0.5 s"),
-    "recovery_time_s": ("s", "Until |q_d − q| stays within 2 % of its peak for 0.5 s"),
+    "recovery_time_s": ("s", "Time until |q_d − q| stays within 2 % of its peak for 0.5 s"),
     "integral_position_error_rad_s": ("rad·s", "Integral of |q_d − q|"),
     "rms_stiffness_error_nm_per_rad": ("N·m/rad", "rms of σ_d − σ"),
     "peak_stiffness_error_nm_per_rad": ("N·m/rad", "Largest |σ_d − σ|"),

@@ -16,7 +16,7 @@ progress for minutes.
 
 
 def start_workers(most: int, jobs_each: int | None = None) -> ProcessPoolExecutor:
-    """Start at most so many workers on demand, each restarted after `jobs_each` jobs."""
+    """Start at most `most` workers on demand, each restarted after `jobs_each` jobs."""
     return ProcessPoolExecutor(
         most, choose_start(), _begin, (dict(os.environ),), max_tasks_per_child=jobs_each
     )

@@ -190,7 +190,7 @@ class CanPlant:
         self._sensing.listen(self._get_bus())
 
     def read(self, now: float, known: State) -> Reading:
-        """Read the bench for this tick; `known` is the present x̂, whose velocities compensate the
+        """Read the bench for this tick; `known` is the current x̂, whose velocities compensate the
         ages.
         """
         return self._sensing.read(self._get_bus(), now, known)

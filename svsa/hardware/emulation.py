@@ -3,7 +3,7 @@
 Both identifiers are extended (29 bits), from the end of the range, which no known drive uses.
 
 Lockstep: a client sends `ADVANCE_ID` with a time; the emulator simulates up to it, sends every
-frame that is due until then, and answers that client with the same identifier and its present time:
+frame that is due until then, and answers that client with the same identifier and its current time:
 the requested time, or, at once, a later one that it has already reached. `EMULATED_ID` is sent to
 each client when it connects and then every 100 ms: it marks the bench as emulated.
 """

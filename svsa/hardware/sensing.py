@@ -86,7 +86,7 @@ class Sensing:
             self._early += take_waiting(bus, self._settings, room)
 
     def read(self, bus: can.BusABC, now: float, known: State) -> Reading:
-        """Return the reading of this tick; `known` is the present x̂, whose velocities compensate
+        """Return the reading of this tick; `known` is the current x̂, whose velocities compensate
         the ages.
         """
         self._drain(bus, now)

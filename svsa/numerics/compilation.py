@@ -216,7 +216,7 @@ def watch_compilation(report: Callable[[str], None]) -> contextlib.AbstractConte
 
 
 def is_compiled_before(function: Any, kind: str = "") -> bool:
-    """Whether the cache has the present version of this compiled function.
+    """Whether the cache has the current version of this compiled function.
 
     kind: name of a tuple among the types of its arguments, or of a field; any types if left out.
     """

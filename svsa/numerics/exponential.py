@@ -23,7 +23,7 @@ LN_2 = (0.6931471805599453, 2.3190468138462996e-17)
 """ln 2 in two parts, the second the nearest double to the remainder."""
 HALF_SQRT_2 = 0.7071067811865476
 MIN_EXPONENT, MAX_EXPONENT = -745.0, 709.0
-"""Outside, eˣ is next to zero or near the end of what a double holds."""
+"""Outside, eˣ is nearly zero or near the upper limit of a double."""
 
 E = (
     0.16666666666666666,

@@ -318,6 +318,6 @@ def _read_value(field: str, given: Any) -> Any:
 
 
 def _rename(violation: Violation, kind: str) -> Violation:
-    """Name the violations of an argument by its parts, and of the whole argument by `kind`."""
+    """Name the violations of an argument by its parts, and of the complete argument by `kind`."""
     name = violation.name.removeprefix("argument.")
     return replace(violation, name=kind if name == "argument" else name)

@@ -20,7 +20,7 @@ def give_load(
         loads: The loads by number.
         number: Number for the new load.
         load: The load.
-        tick: Present tick.
+        tick: Current tick.
         period: T, s.
         joint: Joint of an arm on which it acts.
 

@@ -1,4 +1,4 @@
-"""A run: a configuration, its present state, and the changes so far."""
+"""A run: a configuration, its current state, and the changes so far."""
 
 from collections.abc import Sequence
 from typing import Any, NamedTuple
@@ -62,9 +62,9 @@ class Run:
 
     `svsa.runs.arm.run.build_run` builds that of any configuration.
 
-    `configuration` is the present one; a change takes effect at the next tick. The run starts at x
+    `configuration` is the current one; a change takes effect at the next tick. The run starts at x
     = 0 with the μ0 for which σ(0) = σ_d(0); with `start` it starts there, and the references blend
-    in from the present q and σ. `blocks`, `laws` (one per lane) and `inputs` are the arguments of
+    in from the current q and σ. `blocks`, `laws` (one per lane) and `inputs` are the arguments of
     the compiled loop.
 
     Args:
@@ -169,7 +169,7 @@ class Run:
         return done
 
     def _keep(self, reached: list[Reached]) -> None:
-        """Take over what the plants reached."""
+        """Take over the states that the plants have reached."""
         self.lanes = [lane for one in reached for lane in one.lanes]
 
     def _name_lane(self, number: int) -> str:
@@ -181,7 +181,7 @@ class Run:
         return f"{law} ({number + 1})" if laws.count(law) > 1 else law
 
     def _advance_plant(self, number: int, rows: np.ndarray) -> Reached:
-        """Advance one plant from the present tick on; the first one is last, so that it is called
+        """Advance one plant from the current tick on; the first one is last, so that it is called
         once. rows: (joints, ticks, channels), written.
         """
         lane, ticks, code = self._advance_lane(number, rows[0])
@@ -200,7 +200,7 @@ class Run:
         return advance_in_slices(run, kind, self.lanes[number], self.tick, rows)
 
     def change(self, command: Command) -> ScheduledLoad | None:
-        """Apply a command now, whatever its tick; if rejected, nothing changes.
+        """Apply a command at the current tick, not at its own; if rejected, nothing changes.
 
         A reference is blended. A new law starts with its initial memory, the same law keeps its
         memory, and the plant of its lane keeps its state; μ0 stays with another plant. An existing

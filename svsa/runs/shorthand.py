@@ -175,7 +175,7 @@ def read_setting(name: str, given: Any, present: Any) -> Any:
     Args:
         name: Name of the setting, such as "stiffness".
         given: The value in the script.
-        present: The present value, which a partial value changes.
+        present: The current value, which a partial value changes.
 
     Raises:
         ParameterError: If the value is invalid; the message describes valid ones.

@@ -86,7 +86,7 @@ class Stepper:
     the same functions: the same torques give bit-identical samples.
 
     Attributes:
-        configuration: Configuration of the present run.
+        configuration: Configuration of the current run.
         fault: Fault that ended the run, or None.
         sample: Channels of the previous tick, as in a `Result`; None at t = 0.
     """
@@ -137,7 +137,7 @@ class Stepper:
             The `Observation` at t = 0.
 
         Raises:
-            ParameterError: If a value is out of range; the present run stays.
+            ParameterError: If a value is out of range; the current run stays.
         """
         configuration = change_configuration(self.configuration, changes).changed(comparisons=())
         self._run = Run(configuration, self._steps, bind=_bind_held)

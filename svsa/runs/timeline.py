@@ -99,7 +99,7 @@ class Timeline:
 
     @property
     def window(self) -> Window:
-        """The present window."""
+        """The current window."""
         return self.windows[-1]
 
     def take(self, command: Command) -> list[int | None] | None:
@@ -206,7 +206,7 @@ class Timeline:
         """Return a controller's line style, or the first free one of its law's color.
 
         If another law uses that color, or the law is not installed, the color is one that no other
-        stored law uses, otherwise one that no present controller uses.
+        stored law uses, otherwise one that no current controller uses.
         """
         used = {
             one.controller: one.line_style
@@ -292,7 +292,7 @@ def _join(before: str, label: str) -> str:
 
 
 def _end(lane: list[Segment], tick: int) -> None:
-    """End the present segment; one without ticks is dropped."""
+    """End the current segment; one without ticks is dropped."""
     if lane[-1].first_tick == tick:
         lane.pop()
     elif lane[-1].end_tick is None:

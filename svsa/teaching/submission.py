@@ -53,7 +53,7 @@ class Submission(Checked):
 
     @property
     def digest(self) -> str:
-        """SHA-256 of the whole submission, in hexadecimal."""
+        """SHA-256 of the complete submission, in hexadecimal."""
         reported = self.model_dump_json(exclude={"law_file"}).encode()
         law = b"" if self.law is None else hashlib.sha256(self.law).digest()
         return hashlib.sha256(hashlib.sha256(reported).digest() + law).hexdigest()

@@ -208,7 +208,7 @@ class ClassAuthentication:
         return person
 
     def _read(self, headers: Headers) -> tuple[Person | None, Membership | None]:
-        """Return the signed person with the present membership."""
+        """Return the signed person with the current membership."""
         carried = self.keys.read_person(read_bearer(headers) or _read_cookie(headers))
         return carried, carried and self.members.find(carried.id)
 

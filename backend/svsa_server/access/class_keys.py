@@ -84,7 +84,7 @@ class ClassKeys:
         return hmac.compare_digest(_digest(token), self._token)
 
     def renew_code(self) -> str:
-        """A new class code; members stay, and the old code is not accepted any more."""
+        """Create a new class code; members stay, and the old code becomes invalid."""
         code = _draw_code(_CODE_LENGTH)
         hashed = _hash_with_salt(code)
         kept = json.loads(self._path.read_text(encoding="utf-8"))

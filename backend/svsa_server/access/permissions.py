@@ -110,7 +110,7 @@ class PermissionTable:
         return Found(INSTRUCTOR_ONLY, {})
 
     def write(self) -> str:
-        """Return the whole table as text, one line for each method and path, by path."""
+        """Return the complete table as text, one line for each method and path, by path."""
         lines = sorted((path, method, found.word) for method, path, found in self.entries)
         return "".join(f"{word:<11}{method:<10}{path}\n" for path, method, word in lines)
 

@@ -23,7 +23,7 @@ _STEPS = "steps.json"
 
 
 class Task(NamedTuple):
-    """What is to be searched."""
+    """The settings of a search."""
 
     adversary: Adversary
     runs: int

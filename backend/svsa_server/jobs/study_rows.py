@@ -51,7 +51,7 @@ def read_row(stored: StoredStudy, row: int) -> dict[str, Any]:
 
 
 def thin_out(rows: pa.Table, laws: int, most: int) -> pa.Table:
-    """Select at most so many rows: random samples, the same for every client, each under every
+    """Select at most `most` rows: random samples, the same for every client, each under every
     law.
     """
     numbers = rows[DRAW].to_numpy()

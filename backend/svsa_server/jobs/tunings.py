@@ -14,7 +14,7 @@ _CANDIDATES, _FILE = "candidates.jsonl", "parameters.toml"
 
 
 class Task(NamedTuple):
-    """What is to be searched."""
+    """The settings of a search."""
 
     law: str
     budget: int
@@ -24,7 +24,7 @@ class Task(NamedTuple):
 
 
 def search(folder: JobFolder, task: Task) -> bool:
-    """Tune a law in a worker; whether the budget was used up."""
+    """Tune a law in a worker; return whether the budget was used up."""
     with (folder.path / _CANDIDATES).open("w", encoding="utf-8", buffering=1) as lines:
 
         def note(candidate: Candidate) -> None:

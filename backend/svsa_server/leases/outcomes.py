@@ -186,7 +186,7 @@ class _Body:
         self._error: Exception | None = None
 
     async def read(self) -> bytes:
-        """Read the whole body, or the part before the client left or exceeded a limit."""
+        """Read the complete body, or the part before the client left or exceeded a limit."""
         is_more = True
         while is_more:
             try:

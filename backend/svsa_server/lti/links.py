@@ -20,7 +20,7 @@ class Link(NamedTuple):
 
     Attributes:
         sent: The submission whose points were delivered, or given up.
-        tries: Number of failed attempts for the present points.
+        tries: Number of failed attempts for the current points.
         due: Time of the next attempt, s since 1970.
     """
 

@@ -109,7 +109,7 @@ async def check_unchanged(
     hosted: NamedSession,
     if_match: Annotated[
         str | None,
-        Header(description="The session's `revision`: refused where it was changed meanwhile"),
+        Header(description="The session's `revision`: rejected if it was changed since"),
     ] = None,
 ) -> None:
     """Raise `ChangedError` if another client has changed settings or loads since."""
@@ -142,7 +142,7 @@ REFUSALS: dict[int | str, dict[str, Any]] = {
     404: {"model": Problem, "description": "No such session, load or run"},
     409: {
         "model": Problem,
-        "description": "Not in the present state, or another client is in control",
+        "description": "Not in the current state, or another client is in control",
     },
     422: {"model": Problem, "description": "Rejected values; nothing was changed"},
 }
@@ -153,6 +153,6 @@ CHANGED: dict[int | str, dict[str, Any]] = {
 BUSY: dict[int | str, dict[str, Any]] = {
     503: {
         "model": Problem,
-        "description": f"Too much is being made already: again in {RETRY_AFTER_S} s (Retry-After)",
+        "description": f"Too much work is in progress: repeat in {RETRY_AFTER_S} s (Retry-After)",
     }
 }

@@ -44,7 +44,7 @@ def _has_estimate(law: str) -> bool:
 
 
 def name_lanes(segments: Sequence[Sequence[SegmentState]]) -> list[str]:
-    """A name for each lane as a whole: NDOBC → FL where its controller changed."""
+    """The name of each lane over the run: NDOBC → FL if its controller changed."""
     return [" → ".join(dict.fromkeys(one.name for one in lane)) for lane in segments]
 
 

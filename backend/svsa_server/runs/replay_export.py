@@ -21,7 +21,7 @@ from svsa_server.schemas.runs.lane import SegmentState
 
 
 def build_replay(record: Record) -> str:
-    """Build the page's HTML. Reads the whole record and takes seconds: not in the event loop.
+    """Build the page's HTML. Reads the complete record and takes seconds: not in the event loop.
 
     Raises:
         ParameterError: If the record lacks a channel that the view needs.
@@ -85,7 +85,7 @@ def compute_hung_mass(record: Record) -> np.ndarray:
 def trace_hung_mass(
     configuration: Configuration, commands: Sequence[Command], first_tick: int, tick_count: int
 ) -> np.ndarray:
-    """The mass on the link at so many ticks of a run, kg, (tick_count,)."""
+    """The mass on the link at `tick_count` ticks of a run, kg, (tick_count,)."""
     ticks = np.arange(first_tick, first_tick + tick_count)
     mass = np.zeros(tick_count)
     for _, load, start, end, _ in list_loads(configuration, commands):

@@ -25,7 +25,7 @@ class View:
         self.session, self.bridge, self.seen = session, bridge, time.monotonic()
 
     def update(self, now: float) -> None:
-        """Send the present pose; nothing without a viewer or a pose."""
+        """Send the current pose; nothing without a viewer or a pose."""
         if not self.bridge.viewers:
             return
         self.seen = now

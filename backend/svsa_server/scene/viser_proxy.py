@@ -96,7 +96,7 @@ def filter_browser_message(message: bytes) -> bytes | None:
 
 
 class _Page(NamedTuple):
-    """viser's page as served: plain, compressed, and the tag by which a browser knows it."""
+    """viser's page as served: plain, compressed, and its entity tag (ETag)."""
 
     plain: bytes
     compressed: bytes

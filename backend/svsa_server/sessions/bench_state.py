@@ -20,7 +20,7 @@ _BINS_A_WIRE_BIN = 25
 
 
 def build_bench_state(session: BenchSession) -> BenchState:
-    """Build the present state of a session's bench."""
+    """Build the current state of a session's bench."""
     fields, bench, calibration = session.loop.memory.fields, session.bench, session.calibration
     return BenchState(
         name=bench.name,

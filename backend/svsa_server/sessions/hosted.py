@@ -138,7 +138,7 @@ class HostedSession:
         self.touch()
 
     def read_instant(self) -> dict[str, int | str | None]:
-        """Return the present run and tick, and the client in control."""
+        """Return the current run and tick, and the client in control."""
         holder = self.lease.holder
         return {
             "run": self.session.journal.run_number,
@@ -256,7 +256,7 @@ LogEndedLease = Callable[[HostedSession, EndedLease], None]
 
 
 def log_ended_lease(log: AuditLog, hosted: HostedSession, settled: EndedLease) -> None:
-    """Log the holder and the reason of an ended lease, its tick, and the present holder."""
+    """Log the holder and the reason of an ended lease, its tick, and the current holder."""
     log.write(
         event="control",
         why=settled.why,

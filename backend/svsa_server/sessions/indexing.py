@@ -50,7 +50,7 @@ class Indexing:
         self._thread.join()
 
     def close(self) -> None:
-        """Stop after the present run; the next start does the rest."""
+        """Stop after the current run; the next start does the rest."""
         self._stop.set()
         self.wait()
 

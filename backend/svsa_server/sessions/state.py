@@ -157,7 +157,7 @@ def _drop_unknown(metrics: Metrics | None) -> Metrics | None:
 
 
 def _find_lane_at_load(session: Session, lane: int) -> int | None:
-    """Find the lane that the present controller had at the onset of the load; None if none."""
+    """Find the lane that the current controller had at the onset of the load; None if none."""
     timeline = session.journal.timeline
     number = timeline.lanes[lane][-1].number
     return timeline.load_numbers.index(number) if number in timeline.load_numbers else None

@@ -135,7 +135,7 @@ async def _send(
 
 
 def _count_periods(hosted: HostedSession, now: float) -> tuple[float, int]:
-    """Return the present period of progress messages: its length, s, and its number."""
+    """Return the current period of progress messages: its length, s, and its number."""
     every_s = FRESH_PROGRESS_PERIOD_S if is_fresh(hosted) else PROGRESS_PERIOD_S
     return every_s, int(now / every_s)
 

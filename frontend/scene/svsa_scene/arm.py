@@ -110,7 +110,7 @@ class ArmScene:
                     trail.add(point)
 
     def draw_paths(self, joints: np.ndarray, references: np.ndarray) -> None:
-        """Draw the whole path of the tip and of its reference, in place of those of the last
+        """Draw the complete path of the tip and of its reference, in place of those of the last
         seconds.
 
         Args:

@@ -44,7 +44,7 @@ class OtherArm:
             self._scene.add_glb(f"{node}/solid", mechanism.export(build, length, finish))
 
     def show(self, q: tuple[float, float] | None, name: str = "") -> None:
-        """At these angles, rad; None hides it."""
+        """Show it at these angles, rad; None hides it."""
         if self._link1.visible != (q is not None):
             self._link1.visible = q is not None
         if q is None:
@@ -75,7 +75,7 @@ class Trail:
         self._count = 0
 
     def add(self, tip: tuple[float, float]) -> None:
-        """The point moves there. A jump starts the path again."""
+        """Move the point. A jump starts the path again."""
         if self._points and math.dist(self._points[-1], tip) > _JUMP:
             self._points.clear()
         self._count += 1

@@ -1,4 +1,4 @@
-"""What the view needs to know about an arm at one instant."""
+"""The data of an arm that the view shows at one instant."""
 
 import math
 from dataclasses import dataclass

@@ -37,7 +37,7 @@ def build_link2(length: float) -> Group:
 
 
 def build_ghost_link(length: float, finish: look.Finish) -> Group:
-    """A link as the reference has it: wider than the link and thinner."""
+    """The link of the reference: wider and thinner than the link."""
     return [
         look.paint(join([make_bar((0.0, 0.0, 0.46), (length, 0.0, 0.46), (0.8, 0.88))]), finish)
     ]
@@ -52,7 +52,7 @@ def build_outline(length: float, finish: look.Finish) -> Group:
 
 
 def build_mass() -> Group:
-    """A cylinder on a rod, hung from the origin along +x: 1 kg, scaled with the root of it."""
+    """A cylinder on a rod from the origin along +x: 1 kg, scaled with the root of the mass."""
     rod = make_plate([(0.0, -0.04), (0.9, -0.04), (0.9, 0.04), (0.0, 0.04)], (-0.04, 0.04))
     disc = make_disc(0.55, (0.8, 1.5), bevel=0.06)
     disc.apply_transform(trimesh.transformations.rotation_matrix(np.pi / 2, (0.0, 1.0, 0.0)))

@@ -94,7 +94,7 @@ class TorqueArrow:
             add_label(server, f"{node}/h/t", label, (radius + 2 * _WIRE, 0.4 * _HEAD, 0.0))
 
     def show(self, torque_nm: float) -> None:
-        """Turn with the torque; too small a one is not drawn."""
+        """Turn with the torque; a very small torque is not drawn."""
         arc = compute_arc(torque_nm)
         shown = math.ceil(arc / _PIECE)
         if shown != self._shown:

@@ -136,7 +136,7 @@ class ArmReplay:
 
 
 class _Ghosts:
-    """The outlines of a lane, one a controller; that of the present one is seen."""
+    """The outlines of a lane, one a controller; that of the current one is seen."""
 
     def __init__(
         self, server: viser.ViserServer, lane: int, segments: Sequence[LaneSegment], named: bool

@@ -1,4 +1,4 @@
-"""`svsa datasheet`: what an actuator can do, as a table, as JSON and as a page (PDF or PNG)."""
+"""`svsa datasheet`: the capabilities of an actuator as a table, JSON or a page (PDF or PNG)."""
 
 import json
 from pathlib import Path

@@ -6,7 +6,7 @@ PUBLISHED_HEADS = ("Quantity", "Simulated plant", "Published", "Deviation", "Sou
 
 
 def write_figure(value: float) -> str:
-    """Write a number with three digits, but whole from 1000 on: not as 1e+03."""
+    """Write a number with three digits, and as an integer from 1000 on: not as 1e+03."""
     return f"{value:.3g}" if abs(value) < 999.5 else f"{value:.0f}"
 
 

@@ -51,7 +51,7 @@ class Reason:
 
 @dataclass(frozen=True)
 class TorqueDemand:
-    """The motor torques that the load demands in the present configuration.
+    """The motor torques that the load demands in the current configuration.
 
     Attributes:
         peak1_nm: Peak |u1| without a limit, N·m.

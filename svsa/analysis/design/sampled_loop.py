@@ -32,7 +32,7 @@ _NO_EFFECT = 1e-9
 class SampledLoop(NamedTuple):
     """z' = A z + B n + W w + X d, u = C z: a tick of the loop about rest.
 
-    z = (x, x̂, ŵ, present torque and that of the last period, queue of the delay, memory of the
+    z = (x, x̂, ŵ, current torque and that of the last period, queue of the delay, memory of the
     law, the last messages), without parts that never change; it begins with x. n is noise on θ1,
     θ2, φ, rad; w are torques on link, motor 1 and motor 2 during the tick, N·m, unknown to the
     controller; d is a change of the plant's x at the end of the tick, which its sensors measure; u

@@ -75,7 +75,7 @@ class Memory(NamedTuple):
     """The learned corrections.
 
     Attributes:
-        place: Present place in the period, knots.
+        place: Current place in the period, knots.
         position: Corrections of the position, rad.
         stiffness: Corrections of the stiffness, N·m/rad.
     """

@@ -180,7 +180,7 @@ def govern_stiffness(
     w: Disturbance,
     period: float,
 ) -> tuple[float, float, float]:
-    """Compute the addition to σ_d, σ̇_d and σ̈_d with which the spring can transmit the present
+    """Compute the addition to σ_d, σ̇_d and σ̈_d with which the spring can transmit the current
     load.
 
     The target is σ_d (n/c)^1.25, with the required torque n = |ŵ2 − M q̈_d − D q̇_d| and the torque
@@ -266,7 +266,7 @@ def yield_poles(
 
     `constants` and `memory` need the fields of `Constants` and `Memory` except for the gains of the
     observer; `memory` is written. The rate of ŵ is read from `memory.observed`; `a_most` is the
-    present upper bound of a, rad/s.
+    current upper bound of a, rad/s.
     """
     c, observed = constants, memory.observed
     sigma, dsigma, ddsigma = govern_stiffness(nominal, c, memory, reference, w, period)

@@ -6,7 +6,7 @@ problem becomes one quadratic problem per chain: over ten blocks of 5 ms
     minimize Σ (e/e_q)² + (ė/e_v)² + (Δy/y_n)² + terminal cost,  y_min ≤ y ≤ y_max
 
 with Δy = q_d⁗ − y, the terminal cost of the infinite horizon (Riccati), and the torque limits
-converted to bounds of y at the present state. The derivatives of the reference serve as preview.
+converted to bounds of y at the current state. The derivatives of the reference serve as preview.
 The Hessian is constant, and each tick computes a fixed number of projected Gauss–Seidel sweeps from
 the last plan, so that all ticks cost the same. The ŵ of its own observer is compensated.
 

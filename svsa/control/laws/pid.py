@@ -107,7 +107,7 @@ def control(
     applied: Torque,
     period: float,
 ) -> Torque:
-    """See above, N·m, before limits; an integral stops while its motor is at its limit."""
+    """Torques of the equations above, N·m; an integral stops while its motor is at its limit."""
     c, d = constants, compute_flat(nominal, reference)
     e, de = reference.q - x.q, reference.dq - x.dq
     u1 = (

@@ -148,7 +148,7 @@ def control(
     applied: Torque,
     period: float,
 ) -> Torque:
-    """See above; uses only the spring's model, for τ_e, σ and g. N·m."""
+    """Torques of the equations above, N·m; of the model, only the spring is used (τ_e, σ, g)."""
     c = constants
     wide = 1.0 + (c.ratio - 1.0) * memory.left
     memory.left *= c.kept

@@ -72,7 +72,7 @@ def observe_disturbance(
         share: g.
         rate_share: h.
         memory: `Observed`, written.
-        x: Present x̂, `State`.
+        x: Current x̂, `State`.
         torque: `Torque` that acted in the last period, N·m.
         period: T, s.
 

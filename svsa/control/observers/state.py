@@ -77,7 +77,7 @@ def update_state_estimate(
         x: Last x̂, `State`.
         w: ŵ, `Disturbance`, N·m.
         torque: `Torque` applied since, N·m.
-        measurement: Present `Measurement`.
+        measurement: Current `Measurement`.
         period: T, s.
 
     Returns:

@@ -124,7 +124,7 @@ def _describe(
 
 
 class _EndedError(Exception):
-    """The search ends."""
+    """Signal of the end of a search."""
 
 
 class _Search:

@@ -27,7 +27,7 @@ PARTS = 16
 DIGITS = (1, 2, 3, 4)
 PASSES = 4
 AFTER_S, GRID_S = 0.5, 0.5
-"""How long a run goes on after its fault, to a multiple of this."""
+"""Time by which a run continues after its fault, rounded up to a multiple of this, s."""
 
 
 class Step(NamedTuple):

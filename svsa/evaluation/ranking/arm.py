@@ -203,7 +203,7 @@ def list_arm_cells(results: ArmResults) -> list[list[str]]:
 
 
 def format_median(median: Median) -> str:
-    """A median with its interval; "fault" where that is a fault."""
+    """Format a median with its interval; "fault" if the median is a fault."""
     value, low, high = (
         "fault" if one is None else f"{one:.2g}" for one in (median.value, median.low, median.high)
     )

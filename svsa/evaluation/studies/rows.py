@@ -113,7 +113,7 @@ def _read_part(path: Path, columns: list[str] | None) -> pa.Table:
 
 
 def _translate(table: pa.Table) -> pa.Table:
-    """Translate columns of an earlier version to the present names."""
+    """Translate columns of an earlier version to the current names."""
     return table.rename_columns([METRICS.get(name, name) for name in table.column_names])
 
 

@@ -108,7 +108,7 @@ def open_study(name: str, root: Path | None = None) -> StoredStudy:
 
 
 def _translate_definition(written: dict[str, Any]) -> dict[str, Any]:
-    """Translate metrics of an earlier version to the present names."""
+    """Translate metrics of an earlier version to the current names."""
     present = dict(written)
     if "success" in present:
         present["success"] = translate_fields(present["success"], METRICS)

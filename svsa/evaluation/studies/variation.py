@@ -36,7 +36,7 @@ class _Variation(Checked):
 
     @property
     def is_numeric(self) -> bool:
-        """Whether numbers stand for its values in a table; else names."""
+        """Whether a table has its values as numbers; otherwise as names."""
         return True
 
     def label(self, drawn: list[Any]) -> list[Any]:
@@ -55,7 +55,7 @@ class _Range(_Variation):
         return self
 
     def list_tried(self) -> dict[str, Any]:
-        """Values that its setting must take, by the field that is wrong where it does not."""
+        """Values that its setting must accept, by the field that is wrong if it rejects them."""
         return {"low": self.low, "high": self.high, "kind": self._find_between()}
 
     def _find_between(self) -> Any:
@@ -128,12 +128,12 @@ class _Listed(_Variation):
         return self
 
     def list_tried(self) -> dict[str, Any]:
-        """Values that its setting must take, by the field that is wrong where it does not."""
+        """Values that its setting must accept, by the field that is wrong if it rejects them."""
         return {f"values[{index}]": value for index, value in enumerate(self.values)}
 
     @property
     def is_numeric(self) -> bool:
-        """Whether numbers stand for its values in a table; else names."""
+        """Whether a table has its values as numbers; otherwise as names."""
         return not self.names and all(_is_number(value) for value in self.values)
 
     def label(self, drawn: list[Any]) -> list[Any]:

@@ -111,7 +111,7 @@ def run_c_lanes(loop: CLoop, run: Run, ticks: int) -> tuple[np.ndarray, np.ndarr
 
 
 def build_arm_work(ticks: int) -> Callable[[], object]:
-    """The kernel of an arm of two joints with the same law: so many ticks."""
+    """Build the work of the kernel of an arm with the same law: `ticks` ticks."""
     run = ArmRun(build_arm_experiment("rods", {}, {"law": LAW}))
     samples, masses = np.empty((2, ticks, len(CHANNELS))), np.empty(ticks)
     given = run.arms[0], *run.laws, run.arm_inputs, run.states[0]
@@ -119,7 +119,7 @@ def build_arm_work(ticks: int) -> Callable[[], object]:
 
 
 def build_actuator_works() -> dict[str, Callable[[], object]]:
-    """The kernel of every other installed actuator with the same law: so many ticks each."""
+    """Build the work of the kernel of every other installed actuator with the same law."""
     names = (name for name in list_mechanism_names() if name != SVSA)
     return {name: build_kernel_work(Run(build_actuator_experiment(name, LAW))) for name in names}
 

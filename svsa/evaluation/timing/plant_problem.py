@@ -56,7 +56,7 @@ class Problem(NamedTuple):
 
 
 def build_problem(duration_s: float) -> Problem:
-    """The problem over so many seconds, the load in their middle."""
+    """Build the problem over `duration_s`, with the load in its middle."""
     run = Run(get_figure(FIGURE).build_configuration(LAW))
     first = round((LOAD_TIME_S - 0.5 * duration_s) / run.period_s)
     samples = simulate(FIGURE, LAW, duration_s=LOAD_TIME_S + 0.5 * duration_s).samples[first:]
@@ -82,7 +82,7 @@ def build_problem(duration_s: float) -> Problem:
 
 @compiled
 def integrate(problem: Problem, steps: int, states: np.ndarray) -> None:
-    """The plant by so many Runge–Kutta steps a period, into states (periods, 6)."""
+    """Integrate the plant by several Runge–Kutta steps per period, into states (periods, 6)."""
     p, rows, torques = problem, borrow(states), borrow(problem.torques)
     loads = LoadTable(borrow(p.loads.rows), borrow(p.loads.points), p.loads.changing)
     x = State(p.x[0], p.x[1], p.x[2], p.x[3], p.x[4], p.x[5])

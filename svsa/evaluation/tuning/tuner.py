@@ -1,4 +1,4 @@
-"""Tuning by CMA-ES from the present parameters; the best candidates run on validation trials."""
+"""Tuning by CMA-ES from the current parameters; the best candidates run on validation trials."""
 
 from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor
@@ -60,13 +60,13 @@ class Tuned:
 
     Attributes:
         space: The search space.
-        budget: Number of candidates after the present parameters.
+        budget: Number of candidates after the current parameters.
         trials: Number of training trials of each candidate.
         validation: Number of validation trials of the finals.
         seed: Seed of search and trials.
         present: Initial design of the search.
-        candidates: The present parameters, then the other candidates.
-        finals: The present parameters and the best candidates on the validation trials.
+        candidates: The current parameters, then the other candidates.
+        finals: The current parameters and the best candidates on the validation trials.
         is_complete: Whether the budget was used up.
     """
 
@@ -97,7 +97,7 @@ class Tuned:
 
 
 class _EndedError(Exception):
-    """The search ends."""
+    """Signal of the end of a search."""
 
 
 def tune(
@@ -116,13 +116,13 @@ def tune(
 ) -> Tuned:
     """Search a law's parameters for the minimum cost, see `svsa.evaluation.tuning.judge`.
 
-    The method is the same for every law: CMA-ES from the present parameters, generations of 16,
-    restarted at random parameters after convergence. Then the ten best candidates and the present
+    The method is the same for every law: CMA-ES from the current parameters, generations of 16,
+    restarted at random parameters after convergence. Then the ten best candidates and the current
     parameters are evaluated on the validation trials. The same arguments give the same result.
 
     Args:
         law: Name of an installed law.
-        budget: Number of candidates after the present parameters.
+        budget: Number of candidates after the current parameters.
         trials: Number of training trials of each candidate, half of each family.
         validation: Number of validation trials.
         seed: Seed of search, training and validation trials.
@@ -186,7 +186,7 @@ class _Search:
         self._is_cancelled, self._problem = is_cancelled, problem
 
     def run(self, seed: int) -> None:
-        """Evaluate the present parameters, then search until the budget is used up."""
+        """Evaluate the current parameters, then search until the budget is used up."""
         training = self._problem.build("training", seed, self._trials)
         present = self._space.read_values(self._design)
         self._try(training, "present", [present])
@@ -204,7 +204,7 @@ class _Search:
             search("cma", len(start), seed, judge_generation, GENERATION, STEP, start)
 
     def validate(self, seed: int, count: int) -> list[Candidate]:
-        """Evaluate the present parameters and the best candidates on the validation trials."""
+        """Evaluate the current parameters and the best candidates on the validation trials."""
         trials = self._problem.build("validation", seed, count)
         best = sorted(self.candidates[1:], key=lambda one: one.judgment.cost)
         chosen = list({one.values: one for one in (self.candidates[0], *best)}.values())

@@ -132,7 +132,7 @@ def _compute_direction(trace: Trace) -> np.ndarray:
 
 
 def _solve(rows: list[np.ndarray], wanted: list[np.ndarray]) -> list[Fitted]:
-    """Least squares; the error is infinite where the columns do not determine the values."""
+    """Least squares; the error is infinite if the columns do not determine the values."""
     a, b = np.concatenate(rows), np.concatenate(wanted)
     # Columns are normalised: their lengths differ by up to ten powers of ten.
     lengths = np.linalg.norm(a, axis=0)

@@ -130,7 +130,7 @@ def _compare(
 
 
 def _measure(gain_error: float | None, ratio_error: float | None) -> float:
-    """The greater of two logarithmic errors, each in its tolerance; None is not known."""
+    """The greater of two logarithmic errors, each relative to its tolerance; None is unknown."""
     gain = abs(gain_error or 0.0) / math.log(GAIN_TOLERANCE)
     return max(gain, abs(ratio_error or 0.0) / math.log(RATIO_TOLERANCE))
 
@@ -138,7 +138,7 @@ def _measure(gain_error: float | None, ratio_error: float | None) -> float:
 def _name_causes(
     bench: BenchFile, motor: str, gain_error: float | None, ratio_error: float | None
 ) -> str:
-    """Each field that alone explains both errors, with the value that it should have."""
+    """Each field that alone explains both errors, with its expected value."""
     found: list[tuple[float, str]] = []
     for cause in list_causes(motor):
         uses_ratio = ratio_error is not None and cause.ratio != 0

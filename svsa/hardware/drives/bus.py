@@ -132,7 +132,7 @@ def _ask_for_server(settings: BusSettings) -> None:
 
 
 def _choose_options(settings: BusSettings) -> dict[str, Any]:
-    """Choose options as written; for slcan without a wait of 1 ms, which would be a whole tick."""
+    """Choose options as written; for slcan without a wait of 1 ms, which is a complete tick."""
     options: dict[str, Any] = {"timeout": 0.0} if settings.interface == _SLCAN else {}
     if settings.fd:
         options |= {"fd": True, "data_bitrate": settings.data_bitrate}

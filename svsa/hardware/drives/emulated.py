@@ -121,7 +121,7 @@ class EmulatedDrive(ABC):
         return False
 
     def zero_counter(self) -> None:
-        """Set the present position as zero."""
+        """Set the current position as zero."""
         self._zero = self._raw
 
     @property

@@ -1,4 +1,4 @@
-"""A drive family: one value with everything that the bench needs to know about it.
+"""A drive family: everything about it that the bench needs, in one value.
 
 A package registers it as an entry point of the group `svsa.drives`, like `robomodule`.
 """

@@ -132,5 +132,5 @@ def build_drive(motor: MotorSettings, period_s: float, speed_max: float) -> "Dri
 
 
 def build_stop(motor: MotorSettings) -> "StopFrames":
-    """The frames that take the torque off the drive of a motor."""
+    """The frames that remove the torque of the drive of a motor."""
     return get_family(motor.drive).build_stop(motor)

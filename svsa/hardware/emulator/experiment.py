@@ -65,7 +65,7 @@ class LockstepBench:
         return self._clock.now()
 
     def tick(self, count: int = 1) -> None:
-        """Run so many periods."""
+        """Run `count` periods."""
         for _ in range(count):
             self._deadline += self.bench.timing.period_s
             self._clock.wait_until(self._deadline)

@@ -100,7 +100,7 @@ class Mechanics:
 
     @property
     def load_count(self) -> int:
-        """Number of present and scheduled loads."""
+        """Number of active and scheduled loads."""
         return sum(load.end_tick > self._tick for load in self._loads)
 
     def read(self, time_us: int) -> State:

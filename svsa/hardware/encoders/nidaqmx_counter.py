@@ -76,7 +76,7 @@ class NidaqmxCounter:
         return False
 
     def read(self, now_s: float) -> tuple[int, float] | None:
-        """Read the present counts.
+        """Read the current counts.
 
         Raises:
             EncoderError: If the card does not answer.

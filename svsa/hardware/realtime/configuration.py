@@ -105,7 +105,7 @@ def build_bench_configuration(bench: BenchFile, wanted: Configuration) -> Config
 
 
 def build_first_experiment(bench: BenchFile) -> Configuration:
-    """Build what a session of a bench begins with, without a load.
+    """Build the initial configuration of a session of a bench, without a load.
 
     Figure 4A of the paper for the SVSA, else the default experiment of the actuator.
     """

@@ -52,7 +52,7 @@ class BenchProcesses:
         memory: See `LoopMemory`.
         events: Unread messages of the loop.
         notes: Real-time privileges that were granted.
-        step: Present activity of the loop until it is ready.
+        step: Current activity of the loop until it is ready.
         failure: Why it did not become ready, or None.
         patience_s: Time after which a loop without ticks counts as silent; a command is answered
             within it.

@@ -58,7 +58,7 @@ class Plant(Protocol):
         ...
 
     def read(self, now: float, known: State) -> Reading:
-        """Read the bench; `known` is the present x̂."""
+        """Read the bench; `known` is the current x̂."""
         ...
 
     def write(
@@ -184,7 +184,7 @@ class BenchLoop:
     def change(self, command: Command) -> int:
         """Apply a command now; return the tick at which it takes effect.
 
-        A law with its own ŵ starts with the present one: from zero it would drop the load that it
+        A law with its own ŵ starts with the current one: from zero it would drop the load that it
         holds.
 
         Raises:
@@ -256,7 +256,7 @@ class BenchLoop:
         return State(*known.tolist()), Disturbance(*estimate.tolist()), Torque(*limited.tolist())
 
     def _connect(self) -> None:
-        """Pack the constants of the present run, and its law with its memory."""
+        """Pack the constants of the current run, and its law with its memory."""
         run = self.run
         blocks, law, memory = run.blocks[0], run.laws[0], run.lanes[0].memory
         self._connected = blocks, law, memory  # owners of the memory

@@ -45,7 +45,7 @@ class LoopMemory:
 
     Its fields:
 
-    - run: number of the present run; end_tick: number of its samples so far; skipped_in_run: ticks
+    - run: number of the current run; end_tick: number of its samples so far; skipped_in_run: ticks
       that it missed.
     - ticks, skipped: ticks of the loop since its start, and missed ones.
     - status: index of the bench's state.
@@ -76,7 +76,7 @@ class LoopMemory:
 
     @property
     def number(self) -> int:
-        """Number of the present run."""
+        """Number of the current run."""
         return int(self.fields["run"])
 
     def count(self, number: int) -> int:

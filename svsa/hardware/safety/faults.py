@@ -35,7 +35,7 @@ class FaultLatch:
         return self._fault
 
     def take(self, fault: Fault) -> bool:
-        """Latch a fault, unless the present one has priority.
+        """Latch a fault, unless the current one has priority.
 
         Args:
             fault: The fault that was detected or reported.

@@ -25,7 +25,7 @@ class BenchCommands:
     """Sends commands to the loop, and logs each at the tick reported by the loop.
 
     Args:
-        journal: Journal of the present run.
+        journal: Journal of the current run.
         ask: Sends a request; raises the loop's rejection.
         is_moving: Returns whether the bench moves.
         rest: Lets time pass.

@@ -28,7 +28,7 @@ TWIN = 1
 
 
 class SampleSource(Protocol):
-    """The source of a bench's samples, such as `LoopMemory`. number: of its present run."""
+    """The source of a bench's samples, such as `LoopMemory`. number: of its current run."""
 
     @property
     def number(self) -> int:  # noqa: D102

@@ -94,7 +94,7 @@ class BenchSession:
 
     @property
     def run(self) -> BenchRun:
-        """The present run."""
+        """The current run."""
         return self._run
 
     @property
@@ -281,7 +281,7 @@ class BenchSession:
         self.wake(now)
 
     def wake(self, now: float) -> None:
-        """Read what the bench has done since the last call; does not block."""
+        """Read the samples and events of the bench since the last call; does not block."""
         if self.loop.starting:
             return
         self.loop.processes.beats.beat("server")

@@ -46,12 +46,12 @@ for _operation, _name in (
 
 
 def as_bits(number: Any) -> Any:
-    """A whole number as an unsigned one of 64 bits."""
+    """An integer as an unsigned one of 64 bits."""
     return np.uint64(number)
 
 
 def as_float(bits: Any) -> Any:
-    """An unsigned whole number as the nearest float."""
+    """An unsigned integer as the nearest float."""
     return np.float64(bits)
 
 

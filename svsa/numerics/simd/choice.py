@@ -39,7 +39,7 @@ def some(condition: Any) -> bool:
 
 
 def _unify(context: Any, condition: Any, a: Any, b: Any) -> Any:
-    """What kind a choice between kinds a and b is; None where there is none."""
+    """The kind of a choice between kinds a and b; None if there is none."""
     if isinstance(a, types.BaseTuple) and isinstance(b, types.BaseTuple):
         pairs = zip(list_kinds(a), list_kinds(b), strict=False)
         kinds = [_unify(context, condition, *pair) for pair in pairs]

@@ -64,7 +64,7 @@ def read(table: np.ndarray, row: int, column: int) -> Any:
 
 @overload(read, jit_options=INLINED)
 def choose_read(table: Any, row: Any, column: Any) -> Any:
-    """By how many dimensions the table has."""
+    """Select by the number of dimensions of the table."""
 
     def read_number(table: Any, row: Any, column: Any) -> Any:
         return table[row, column]
@@ -92,7 +92,7 @@ def make_alike(table: np.ndarray, number: float) -> Any:
 
 @overload(make_alike, jit_options=INLINED)
 def choose_alike(table: Any, number: Any) -> Any:
-    """By how many dimensions the table has."""
+    """Select by the number of dimensions of the table."""
 
     def keep(table: Any, number: Any) -> Any:
         return number

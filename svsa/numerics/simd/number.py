@@ -34,7 +34,7 @@ class Vector(types.Type):
     """Eight doubles. A number converts to eight of it."""
 
     def can_convert_from(self, typingctx: Any, other: Any) -> Any:
-        """A float or a whole number is as safe as a float among floats."""
+        """Conversion of a float or an integer is as safe as that of a float among floats."""
         return Conversion.safe if isinstance(other, types.Number) else None
 
 

@@ -69,7 +69,7 @@ class ArmRun(Run):
 
     @property
     def states(self) -> list[ArmState]:
-        """`ArmState` of each arm at the present tick."""
+        """`ArmState` of each arm at the current tick."""
         pairs = zip(self.lanes[::2], self.lanes[1::2], self._coupled, strict=True)
         return [ArmState(lane1, lane2, *coupled) for lane1, lane2, coupled in pairs]
 

@@ -27,7 +27,7 @@ def back_up(folder: Path, archive: Path) -> int:
     """Write all files of a data folder to an archive; the lab may run and record at the same time.
 
     SQLite copies the databases, so that changes during the copy are safe. A run that is being
-    recorded is in the archive with its present samples; the restored lab lists it as interrupted.
+    recorded is in the archive with its current samples; the restored lab lists it as interrupted.
 
     Args:
         folder: The data folder.

@@ -1,7 +1,7 @@
 """Translation of files from before a renaming: the only module with former names.
 
 A record, or the progress of a student, keeps the names of its version. The reader translates them
-once, so that all other code uses the present names only.
+once, so that all other code uses the current names only.
 """
 
 from typing import Any
@@ -35,10 +35,10 @@ def translate_fields(written: Any, words: dict[str, str]) -> Any:
 
     Args:
         written: A value read from JSON.
-        words: Present name by former name.
+        words: Current name by former name.
 
     Returns:
-        The object with the present names.
+        The object with the current names.
     """
     if not isinstance(written, dict):
         return written

@@ -79,7 +79,7 @@ class Recorder:
 
     @property
     def status(self) -> RecordStatus:
-        """The present state of the recording."""
+        """The current state of the recording."""
         if self._failure is not None:
             return RecordStatus("failed", self._failure, self._ticks, self._bytes)
         if self._ended:

@@ -1,1 +1,1 @@
-"""Results of whole runs, simulated, on the emulator or recorded: numbers and figures."""
+"""Results of complete runs, simulated, on the emulator or recorded: numbers and figures."""

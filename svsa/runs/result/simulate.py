@@ -1,4 +1,4 @@
-"""Simulation of a whole run at full speed."""
+"""Simulation of a complete run at full speed."""
 
 from collections.abc import Sequence
 from contextlib import nullcontext

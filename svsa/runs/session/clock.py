@@ -38,7 +38,7 @@ class SimulationClock:
 
     @property
     def pace(self) -> Pace:
-        """Present pace."""
+        """Current pace."""
         return Pace(self.speed, self.real_time_factor, self.accumulated_delay_s)
 
     def begin(self) -> None:

@@ -1,4 +1,4 @@
-"""The present run of a session with its samples, events, lanes, metrics and record."""
+"""The current run of a session with its samples, events, lanes, metrics and record."""
 
 import math
 from collections import deque
@@ -32,12 +32,12 @@ def apply_no_loads(loads: tuple[Load, ...]) -> None:
 
 
 class Journal:
-    """The present run of a session, advanced and changed only here, with its history.
+    """The current run of a session, advanced and changed only here, with its history.
 
     Attributes:
         initial: Configuration at tick 0; with `commands` it determines the run's samples.
         version: Incremented with every change, not with time.
-        timeline: Controllers of the lanes over time, and the present window.
+        timeline: Controllers of the lanes over time, and the current window.
         metrics: Metrics of the lanes.
         on_recorded: Called for each recording that ends.
         branch_of: The recorded run that this one continues.
@@ -67,7 +67,7 @@ class Journal:
         self.version += 1
 
     def build_restart(self) -> Configuration:
-        """Build the run restarted with the present settings and the initially planned loads."""
+        """Build the run restarted with the current settings and the initially planned loads."""
         return self.run.configuration.with_loads_of(self.initial)
 
     def check_recordable(self) -> None:
@@ -135,12 +135,12 @@ class Journal:
             self.metrics.begin_window(self.run.tick)
 
     def log(self, kind: str, label: str) -> None:
-        """Log an event at the present tick."""
+        """Log an event at the current tick."""
         self.events.append(Event(self.run.tick, self.run.time_s, kind, label))
         self.version += 1
 
     def report(self, kind: str, label: str) -> None:
-        """Log a bench's own event at the present tick, also in a record."""
+        """Log a bench's own event at the current tick, also in a record."""
         self.log(kind, label)
         self._reported.append(self.events[-1])
         if self.recorder is not None:
@@ -165,7 +165,7 @@ class Journal:
             self.log("fault", label_fault(fault.code))
 
     def refine_fault(self, fault: Fault) -> None:
-        """Extend the description of the present fault, also in a record."""
+        """Extend the description of the current fault, also in a record."""
         written = self.recorder.fault if self.recorder is not None else None
         if self.recorder is not None and written is not None and written.code == fault.code:
             self.recorder.write_fault(fault)

@@ -35,7 +35,7 @@ class Session(Protocol):
 
     @property
     def run(self) -> Run:
-        """The present run."""
+        """The current run."""
         ...
 
     @property
@@ -68,7 +68,7 @@ class Session(Protocol):
         ...
 
     def reset(self) -> None:
-        """Restart at t = 0 with the present settings and the planned loads."""
+        """Restart at t = 0 with the current settings and the planned loads."""
         ...
 
     def start(self) -> None:
@@ -120,7 +120,7 @@ class Session(Protocol):
         ...
 
     def change(self, command: Command) -> None:
-        """Apply a command now, whatever its tick; if rejected, nothing changes.
+        """Apply a command at the current tick, not at its own; if rejected, nothing changes.
 
         A reference that is already followed is restarted with a blend.
 
@@ -140,7 +140,7 @@ class Session(Protocol):
         joint: JointNumber | None = None,
         again: bool = False,
     ) -> None:
-        """Apply `set` with the command that `build` derives from the present configuration.
+        """Apply `set` with the command that `build` derives from the current configuration.
 
         Args:
             build: Builds the command; for an arm it is called with each of these joints.

@@ -58,7 +58,7 @@ class SimulatedSession:
 
     @property
     def run(self) -> Run:
-        """The present run."""
+        """The current run."""
         return self.journal.run
 
     @property
@@ -96,7 +96,7 @@ class SimulatedSession:
         self.journal.begin(run)
 
     def reset(self) -> None:
-        """Restart at t = 0 with the present settings and the planned loads."""
+        """Restart at t = 0 with the current settings and the planned loads."""
         self.load(self.journal.build_restart())
 
     def start(self) -> None:
@@ -111,7 +111,7 @@ class SimulatedSession:
         self.journal.version += 1
 
     def pause(self) -> None:
-        """Pause after the present tick; the state is kept."""
+        """Pause after the current tick; the state is kept."""
         self._running = False
         self.clock.stop()
         self.journal.version += 1
@@ -165,7 +165,7 @@ class SimulatedSession:
             self.clock.stop()
 
     def change(self, command: Command) -> None:
-        """Apply a command at the present tick."""
+        """Apply a command at the current tick."""
         self.journal.check(command)
         self.journal.enter(command.at(self.run.tick))
 

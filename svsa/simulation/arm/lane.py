@@ -1,4 +1,4 @@
-"""What the loop of an arm is given, and what it carries from tick to tick.
+"""Inputs of the loop of an arm, and its state from tick to tick.
 
 A pair is one value for each joint, joint 1 first.
 """

@@ -56,7 +56,7 @@ def compute_tip_action(rows: np.ndarray, tick: int) -> TipAction:
 
 @compiled
 def compute_wall_force(rows: np.ndarray, tick: int, tip: Point, velocity: Point) -> Point:
-    """Compute the force of the walls that stand during this tick, `Point`, N.
+    """Compute the force of the active walls during this tick, `Point`, N.
 
     tip, velocity: of the tip, m and m/s.
     """

@@ -65,7 +65,7 @@ class LaneState(NamedTuple):
         x: State of the plant.
         known: x̂, the state that the controller knows.
         estimate: ŵ, N·m.
-        actual: Present torque of the motors, N·m.
+        actual: Current torque of the motors, N·m.
         applied: Mean actual torque of the last period, N·m.
         limited: Limited torques of the last samples for the delay, newest first, as (u1, u2) pairs
             in sequence.

@@ -128,7 +128,7 @@ def observe(
         known: x̂ of the previous period, `State`.
         estimate: ŵ of the previous period, `Disturbance`, N·m.
         applied: Mean `Torque` since, N·m.
-        measurement: Present `Measurement`.
+        measurement: Current `Measurement`.
 
     Returns:
         `State` and `Disturbance`.
@@ -144,7 +144,7 @@ def observe(
 def observe_state(
     blocks: Blocks, known: State, estimate: Disturbance, applied: Torque, measurement: Measurement
 ) -> State:
-    """Compute x̂ from the present `Measurement`; arguments as in `observe`."""
+    """Compute x̂ from the current `Measurement`; arguments as in `observe`."""
     measured, estimates = build_measured_state(measurement), blocks.decay > 0.0
     # `some` skips the estimator if no run needs it; in a vector `choose` decides for each run.
     if not some(estimates):

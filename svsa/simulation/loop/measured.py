@@ -59,12 +59,12 @@ class BenchConstants(NamedTuple):
 class BenchLoopState(NamedTuple):
     """The state of a bench's loop.
 
-    known to expected are carried from tick to tick; the others belong to the present tick.
+    known to expected are carried from tick to tick; the others belong to the current tick.
 
     Attributes:
         known: x̂.
         estimate: ŵ, N·m.
-        actual: Present torque of the motors, N·m.
+        actual: Current torque of the motors, N·m.
         before: Torque sent before the last one, N·m.
         sent: Torque sent last, N·m.
         expected: Predicted x̂ of the next tick.

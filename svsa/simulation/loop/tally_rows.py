@@ -1,4 +1,4 @@
-"""The `Tally` of samples: of a whole run, or incrementally."""
+"""The `Tally` of samples: of a complete run, or incrementally."""
 
 import math
 from typing import NamedTuple

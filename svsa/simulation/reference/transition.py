@@ -3,7 +3,7 @@
 The old reference r_a and the new one r_b run in parallel and are blended: r = r_a + w(t) (r_b −
 r_a), with a weight w of degree 9 whose first four derivatives are zero at both ends. Therefore r is
 four times continuously differentiable, and, as a convex combination at every instant, never leaves
-the range of the two. A change during a transition starts from the present blend, so that a
+the range of the two. A change during a transition starts from the current blend, so that a
 reference is a short stack of trajectories.
 
 A sine depends on session time. A finite reference keeps its first value during its transition, and
@@ -153,7 +153,7 @@ def compute_row(stack: Stack, i: int, time: float) -> Derivatives:
 
 @compiled
 def compute_trajectory(stack: Stack, time: float) -> Derivatives:
-    """The present reference and its four derivatives.
+    """The current reference and its four derivatives.
 
     Args:
         stack: Result of `build_stack` and `push_trajectory`.

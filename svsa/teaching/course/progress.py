@@ -219,7 +219,7 @@ def _sum(results: Sequence[CriterionResult]) -> float:
 
 
 def _translate(written: Any) -> Any:
-    """Translate saved progress of an earlier version to the present names."""
+    """Translate saved progress of an earlier version to the current names."""
     present = translate_fields(written, former_words.PROGRESS)
     if isinstance(present, dict) and present.get("at") in former_words.STEPS:
         present["at"] = former_words.STEPS[present["at"]]

@@ -130,7 +130,7 @@ def read_torque(answer: Any) -> tuple[float, float]:
 
 
 def read(length: int) -> bytes:
-    """Read so many bytes of the requests; fewer at the end of the stream."""
+    """Read `length` bytes of the requests; fewer at the end of the stream."""
     got = b""
     while len(got) < length and (more := os.read(0, length - len(got))):
         got += more

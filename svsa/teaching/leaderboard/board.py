@@ -92,7 +92,7 @@ class Board(ClassFolder[Entry]):
         return cls(folder) if (folder / "secret").exists() else None
 
     def find(self, key: str) -> Entry | None:
-        """Find the entry of a key, measured with the present trials (and lab, if installed)."""
+        """Find the entry of a key, measured with the current trials (and lab, if installed)."""
         entry = super().find(key) if _KEY.fullmatch(key) else None
         return entry if entry is not None and _is_present(entry) else None
 
@@ -214,7 +214,7 @@ def build_entry(
 
 
 def _is_present(entry: Entry) -> bool:
-    """Whether an entry has the present trials and, for an installed law, the present lab."""
+    """Whether an entry has the current trials and, for an installed law, the current lab."""
     if entry.suite != PROTOCOL:
         return False
     return not entry.is_installed or (

@@ -166,7 +166,10 @@ def read_rows(
     most: Annotated[int, Query(ge=1, le=MAX_ROWS, description="Maximum number of rows")] = MAX_ROWS,
     written: Annotated[
         Literal["binary", "parquet"],
-        Query(alias="format", description="parquet: the whole table, once a job of it has ended"),
+        Query(
+            alias="format",
+            description="parquet: the complete table, after a job of the study has ended",
+        ),
     ] = "binary",
 ) -> Response:
     """Read columns of the finished rows; if there are more than `most`, a random sample of that

@@ -69,7 +69,7 @@ async def predict_heat(
 ) -> EnduranceState | None:
     """Predict which motor overheats under this load within 30 s, and when; null if none does.
 
-    For the present settings and active loads plus this one; computed on the simulated twin with
+    For the current settings and active loads plus this one; computed on the simulated twin with
     cold motors. The session is not changed.
     """
     session = _find_bench(hosted.session)

@@ -49,7 +49,7 @@ def change_arm(
     """Change the arm of a session.
 
     Feedforward and adaptation act at once. A reference of the tip, and links, restart the run at
-    t = 0 with the present settings.
+    t = 0 with the current settings.
     """
     session = hosted.session
     configuration = session.run.configuration

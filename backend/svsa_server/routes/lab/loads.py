@@ -61,7 +61,7 @@ def apply_load(
     load: GivenLoad,
     joint: Annotated[
         JointNumber | None,
-        Query(ge=1, le=2, description="Joint of an arm on which a torque acts; left out: joint 1"),
+        Query(ge=1, le=2, description="Joint of an arm on which a torque acts; default: joint 1"),
     ] = None,
 ) -> AddedLoad:
     """Add a load, now or at `start_s`; the answer has its `id`, and `Location` its address.

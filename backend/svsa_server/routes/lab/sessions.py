@@ -117,7 +117,7 @@ def quick_stop(hosted: NamedSession) -> SessionState:
 @router.post("/{session}/reset")
 @allow(OPERATOR)
 def reset(hosted: NamedSession) -> SessionState:
-    """Restart at t = 0 with the present settings, also after a fault."""
+    """Restart at t = 0 with the current settings, also after a fault."""
     hosted.session.reset()
     return build_state(hosted)
 

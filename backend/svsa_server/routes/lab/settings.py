@@ -1,6 +1,6 @@
 """Change the settings of a session: references, law, lanes, plant and effects.
 
-Setting the present value again changes nothing: no transition, no event, no new window.
+Setting the current value again changes nothing: no transition, no event, no new window.
 """
 
 from typing import TYPE_CHECKING, Annotated, Any
@@ -42,11 +42,11 @@ router = build_router(
 
 Restart = Annotated[
     bool,
-    Query(description="Start the reference again, faded over, even if it is followed already"),
+    Query(description="Restart the reference with a fade, even if it is already followed"),
 ]
 
 OfJoint = Annotated[
-    JointNumber | None, Query(ge=1, le=2, description="Joint of an arm to change; left out: both")
+    JointNumber | None, Query(ge=1, le=2, description="Joint of an arm to change; default: both")
 ]
 
 if TYPE_CHECKING:
@@ -269,7 +269,7 @@ def _apply(patch: Checked, section: str, actuator: MechanismParameters) -> Mecha
 def _merge(
     held: dict[str, LawParameters], given: dict[str, dict[str, Any]]
 ) -> dict[str, LawParameters]:
-    """Merge the given parameters into the present ones, by law."""
+    """Merge the given parameters into the current ones, by law."""
     changed = dict(held)
     for law, values in given.items():
         try:

@@ -66,7 +66,7 @@ def list_runs(
     sort: Annotated[
         str,
         Query(
-            description="A column; - before it turns it round. What is not known comes last;"
+            description="A column; - before it reverses the order. Unknown values come last;"
             " errors are those of the first lane in its `window`.",
             json_schema_extra={"enum": [f"{sign}{name}" for name in SORTS for sign in ("", "-")]},
             examples=["-created"],
@@ -125,7 +125,7 @@ def change_run(
     patch: Annotated[RunPatch, Body(examples=[{"name": "Group 3", "tags": ["class"]}])],
     if_match: Annotated[
         str | None,
-        Header(description="The run's `revision`: refused where it was changed meanwhile"),
+        Header(description="The run's `revision`: rejected if it was changed since"),
     ] = None,
 ) -> RunSummary:
     """Rename a run, tag it, write notes, or restore it from the trash."""

@@ -57,7 +57,7 @@ def judge_run(
     run_id: RunId,
     wanted: Annotated[VerdictRequest, Body(examples=[EXAMPLE])],
 ) -> RunVerdict:
-    """Compare a run with another within tolerances: each channel held or not, and when worst."""
+    """Compare a run with another within tolerances: verdict and worst time of each channel."""
     run, other = runs.open(run_id), runs.open(wanted.other)
     begins = FROM_THE_FIRST if wanted.align == "start" else _align_windows(run, other)
     verdict = judge(run, other, wanted.tolerances, wanted.rest, begins)

@@ -39,7 +39,7 @@ _FILES: dict[int | str, dict[str, Any]] = {
 }
 _POLICY = {"Content-Security-Policy": "default-src 'none'; style-src 'unsafe-inline'"}
 _Person = Annotated[
-    str, Owned("person"), Query(description="Id of a person; left out, the whole class")
+    str, Owned("person"), Query(description="Id of a person; default: the complete class")
 ]
 
 
@@ -51,13 +51,15 @@ async def read_grades(
     person: _Person = "",
     written: Annotated[
         Literal["json", "csv", "html"],
-        Query(alias="format", description="csv: a line each; html: a page to read or print"),
+        Query(
+            alias="format", description="csv: one line per student; html: a page to read or print"
+        ),
     ] = "json",
 ) -> GradesState | Response:
     """Read the grades of the class or of one user: points by criterion, or the reason for a missing
     grade.
 
-    The instructor reads the whole class; a student reads the own grades only.
+    The instructor reads the complete class; a student reads their own grades only.
     """
     wanted = person if caller.role is Role.INSTRUCTOR else caller.id
     submitted = await asyncio.to_thread(list_graded, find_store(request), wanted or None)

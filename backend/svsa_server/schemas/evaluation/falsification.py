@@ -71,7 +71,7 @@ class AdversaryState(BaseModel):
 
 
 class FalsificationResult(BaseModel):
-    """Settings and present result of a falsification."""
+    """Settings and current result of a falsification."""
 
     law: str
     cost: str

@@ -124,7 +124,7 @@ class StudyPlan(BaseModel):
     laws: list[str]
     samples: int
     rows: int = Field(description="Number of runs: each sample under each law")
-    study: dict[str, Any] = Field(description="The whole study as TOML")
+    study: dict[str, Any] = Field(description="The complete study as TOML")
     columns: list[StudyColumn]
 
 
@@ -173,7 +173,7 @@ class LawOutcome(BaseModel):
     success: Estimate = Field(description="Success rate with Wilson's interval")
     faults: dict[str, int] = Field(description="Number of faults by code")
     quantiles: dict[str, list[float | None]] = Field(
-        description="5, 50 and 95 % quantile of each metric; null if so many runs ended in a fault"
+        description="5, 50 and 95 % quantile of each metric; null if it falls on runs with a fault"
     )
 
 
@@ -210,7 +210,7 @@ class StudySummary(BaseModel):
     actuators: dict[str, list[LawOutcome]] = Field(
         description="Of the runs of each actuator, by its name; empty if it does not vary"
     )
-    pairings: list[LawPair] = Field(description="The first law less each other one")
+    pairings: list[LawPair] = Field(description="The first law minus each other law")
 
 
 class SobolIndices(BaseModel):

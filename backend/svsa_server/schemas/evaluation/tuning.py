@@ -59,7 +59,7 @@ class CandidateState(BaseModel):
 
 
 class TuningResult(BaseModel):
-    """Settings and present result of a tuning."""
+    """Settings and current result of a tuning."""
 
     law: str
     budget: int

@@ -40,7 +40,7 @@ class LoopState(BaseModel):
         "ended. starting: loop and supervisor are starting, and the bench accepts no "
         "command. not_opened: it did not become ready, and nothing has moved"
     )
-    step: str | None = Field(description="Present step of the start; null otherwise")
+    step: str | None = Field(description="Current step of the start; null otherwise")
     starting_s: float | None = Field(description="Time since the start began, s; null otherwise")
     silent_s: float | None = Field(
         description="Time since its last tick, s; null while it runs, or before the first tick"
@@ -56,7 +56,7 @@ class LoopState(BaseModel):
     rate_hz: float
     ticks: int
     skipped_ticks: int = Field(description="Late ticks since the loop started")
-    skipped_in_run: int = Field(description="Late ticks of the present run")
+    skipped_in_run: int = Field(description="Late ticks of the current run")
     lateness_p50_s: float = Field(description="Median since the loop started")
     lateness_p99_s: float
     lateness_p999_s: float
@@ -90,12 +90,12 @@ class EnduranceState(BaseModel):
 
 
 class BenchState(BaseModel):
-    """The present state of a bench."""
+    """The current state of a bench."""
 
     name: str
     emulated: bool | None = Field(
-        description="An emulator stands in for the bench, as the bus says; null before it has"
-        " been listened to: take it for a real one"
+        description="Whether the bus has reported an emulator; null before the first message: treat"
+        " it as a real bench"
     )
     status: BenchStatusName
     interface: str = Field(description="python-can's interface and channel")

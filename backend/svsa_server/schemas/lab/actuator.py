@@ -38,7 +38,7 @@ class ActuatorSummary(BaseModel):
     title: str
     stiffness_nm_per_rad: float = Field(description="Default stiffness, N·m/rad")
     only_stiffness_nm_per_rad: float | None = Field(
-        description="The only stiffness of an actuator without a stiffness motor, else null"
+        description="The only stiffness of an actuator without a stiffness motor, otherwise null"
     )
     load: ConstantLoad = Field(
         description="Default load; the actuator holds it at the default stiffness"

@@ -87,7 +87,7 @@ class FromArm(Checked):
 
 
 class ArmPatch(Checked):
-    """Changes of the arm; what is left out stays."""
+    """Changes of the arm; omitted fields are unchanged."""
 
     feedforward: Flag = quantity("", "Whether the laws get the arm feedforward", default=False)
     adaptation: PayloadAdaptation | None = quantity(
@@ -98,7 +98,7 @@ class ArmPatch(Checked):
     )
     links: ArmParameters = quantity("", "The links; restarts the run", default=None)
     model: ArmParameters = quantity(
-        "", "The links as the feedforward knows them; restarts the run", default=None
+        "", "The links in the model of the feedforward; restarts the run", default=None
     )
 
     def list_given(self) -> dict[str, Any]:

@@ -21,7 +21,7 @@ class EffectState(BaseModel):
     name: str
     meaning: str
     value: ParameterState | None = Field(
-        description="Present value; null if an effect with parameters is off"
+        description="Current value; null if an effect with parameters is off"
     )
     parameters: list[ParameterState] = Field(description="Parameters while it is on")
 

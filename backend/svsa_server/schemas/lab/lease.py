@@ -16,7 +16,7 @@ class ControlRequest(Checked):
         Field(max_length=LONGEST_NAME, json_schema_extra={"pattern": READABLE}),
         AfterValidator(check_printable),
     ] = quantity("", "Name of the holder that all users see, in printable characters")
-    take_over: Flag = quantity("", "Take control from its present holder", default=False)
+    take_over: Flag = quantity("", "Take control from its current holder", default=False)
 
 
 class HandoverRequest(Checked):

@@ -92,8 +92,8 @@ class SessionProgress(BaseModel):
     speed: float | Literal["max"]
     real_time_factor: float = Field(description="Measured speed: session seconds per wall second")
     accumulated_delay_s: float = Field(description="Wall time skipped because ticks were late")
-    fault: SessionFault | None = Field(description="Present fault, until reset or cleared")
-    window: WindowState = Field(description="Present window: since the last change or load")
+    fault: SessionFault | None = Field(description="Current fault, until reset or cleared")
+    window: WindowState = Field(description="Current window: since the last change or load")
     load_window: WindowState | None = Field(
         description="From the newest load's onset to the next change; null without a load"
     )
@@ -139,7 +139,9 @@ class SessionState(SessionProgress):
     )
     rate_hz: float
     actuator: ActuatorSummary
-    actuator2: ActuatorSummary | None = Field(description="That of joint 2 of an arm, else null")
+    actuator2: ActuatorSummary | None = Field(
+        description="Value of joint 2 of an arm, otherwise null"
+    )
     configuration: ConfigurationState
     loads: list[LoadState]
     events: list[Event]

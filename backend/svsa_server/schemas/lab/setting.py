@@ -96,7 +96,7 @@ class ArmSetupState(BaseModel):
     """The arm of a session."""
 
     links: ArmParameters
-    model: ArmParameters = Field(description="The links as the feedforward knows them")
+    model: ArmParameters = Field(description="The links in the model of the feedforward")
     feedforward: bool = Field(description="Whether the laws get the arm feedforward")
     adaptation: PayloadAdaptation | None = Field(description="Estimate of the mass at the tip")
     tip: TipReference | None = Field(
@@ -123,7 +123,7 @@ class ConfigurationState(BaseModel):
     comparisons: tuple[Lane, ...]
     effects: Effects
     effects_preset: PresetName | None = Field(
-        description="The preset with the same effects, whatever their values; null for a mixture"
+        description="The preset with the same effects, with any values; null for a mixture"
     )
     seed: int
     arm: ArmSetupState | None = Field(description="Null for a single joint")

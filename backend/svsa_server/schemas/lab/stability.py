@@ -15,11 +15,11 @@ MAX_AT_ONCE = 400
 
 
 class DesignRequest(TriedDesign):
-    """A design to evaluate, stable or not; fields left out keep the present values."""
+    """A design to evaluate, stable or not; fields left out keep the current values."""
 
     law: InstalledLaw | None = quantity("", "Another law: see GET /laws", default=None)
     stiffness_nm_per_rad: Number | None = quantity(
-        "N·m/rad", "σ_d of the analysis; by default the present value", gt=0, default=None
+        "N·m/rad", "σ_d of the analysis; by default the current value", gt=0, default=None
     )
 
 
@@ -157,7 +157,7 @@ class MarginsState(BaseModel):
     encoders: Literal["session", "rig"] = Field(
         description="Sensing and delay used: the session's, or those of the paper's rig"
     )
-    is_stable: bool = Field(description="If false, modulus and delay are 0, all else null")
+    is_stable: bool = Field(description="If false, modulus and delay are 0, all other fields null")
     is_switching: bool = Field(
         description="Whether the law switches at rest: the margins are then of an average"
     )

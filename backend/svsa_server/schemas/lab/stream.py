@@ -74,7 +74,7 @@ class Hello(BaseModel):
 
 
 class StateMessage(BaseModel):
-    """The state after every change, else the fields that change with time, at 1 or 5 Hz."""
+    """The state after every change; otherwise the fields that change with time, at 1 or 5 Hz."""
 
     type: Literal["state"] = "state"
     since_tick: int = Field(

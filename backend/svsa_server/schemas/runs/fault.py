@@ -20,7 +20,7 @@ class FaultKindState(BaseModel):
     advice: str | None = Field(description="Advice; null if the message is sufficient")
     where: Literal["bench", "both"] = Field(description="Whether the fault occurs on a bench only")
     within_s: float | None = Field(
-        description="Longest time from the cause to zero current; null where no current can flow"
+        description="Longest time from the cause to zero current; null if no current can flow"
     )
 
 

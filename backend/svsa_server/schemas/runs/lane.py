@@ -26,7 +26,7 @@ class SegmentState(Period):
     )
     line_style: int = Field(description="Line style of its curves, from 0; unique on screen")
     has_estimate: bool = Field(
-        description="Whether its law acts on an estimate of the disturbance; true where unknown"
+        description="Whether its law uses an estimate of the disturbance; true if unknown"
     )
 
 
@@ -41,7 +41,7 @@ class EndedWindowState(WindowState):
     """An ended window, and the metrics of the lanes in it."""
 
     lanes: list[Metrics | None] = Field(
-        description="Metrics of the present lanes, in order; null for a lane that did not exist"
+        description="Metrics of the current lanes, in order; null for a lane that did not exist"
     )
 
 
@@ -55,17 +55,17 @@ class LaneState(BaseModel):
     since_start: Metrics | None = Field(description="Metrics of the whole run, including changes")
     in_window: Metrics | None = Field(description="Metrics of `window`, since the last change")
     since_load: Metrics | None = Field(
-        description="Of `load_window`, with which it ends: of who controls the lane now, on the"
-        " lane that it had when the load came; its recovery time is the load's"
+        description="Metrics of `load_window`: of the current controller, on its lane at the onset"
+        " of the load; its recovery time is that after the load"
     )
     lane: int
     joint: Literal[1, 2] | None = Field(description="Joint of an arm; null for a single joint")
     id: int = Field(
-        description="Its own for the whole run: a lane keeps it where lanes before it are taken"
-        " away, and none gets that of a lane that went"
+        description="Unique during the run: a lane keeps its id if lanes before it are removed, and"
+        " no lane gets the id of a removed one"
     )
     law: str
-    name: str = Field(description="Name of its present controller")
+    name: str = Field(description="Name of its current controller")
     segments: list[SegmentState] = Field(
-        description="Its controllers in the last 60 s, the present one last"
+        description="Its controllers in the last 60 s, the current one last"
     )

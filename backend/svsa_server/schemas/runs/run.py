@@ -55,7 +55,7 @@ class BranchOrigin(BaseModel):
     tick: int = Field(description="Tick at which the run branched")
     title: str | None = Field(description="Title of that run; null if it was deleted permanently")
     time_s: float | None = Field(
-        description="The same moment in its replay, s after its first sample; null if deleted"
+        description="The same time in its replay, s after its first sample; null if deleted"
     )
 
 
@@ -158,8 +158,8 @@ class RunOrigin(BaseModel):
 
     configuration: dict[str, Any] = Field(description="Configuration at tick 0")
     commands: list[GivenCommand] = Field(description="Commands in order")
-    first_tick: int = Field(description="First tick of the record; 0 for a session's present run")
-    tick: int = Field(description="Present tick of the run, or end of the record")
+    first_tick: int = Field(description="First tick of the record; 0 for a session's current run")
+    tick: int = Field(description="Current tick of the run, or end of the record")
     period_s: float
     plant: PlantKind
     opening: dict[str, Any] = Field(

@@ -45,7 +45,7 @@ function Views({ state, isBasic }: { state: SessionState; isBasic: boolean }) {
   );
 }
 
-/** The page of the present address. */
+/** The page of the current address. */
 function Here() {
   const state = session.value;
   const at = place.value;

@@ -19,7 +19,7 @@ HOST = 0
 REPLY = 1 << 15
 NOP = 0x50
 FIRST_FAULT, LAST_FAULT = 32, 95
-"""Fault codes from 96 on say what limits the torque, and are no faults."""
+"""Fault codes from 96 on report what limits the torque, and are no faults."""
 
 
 class Mode(IntEnum):

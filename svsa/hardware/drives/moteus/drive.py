@@ -73,7 +73,7 @@ class MoteusDrive(Drive):
         self._held_ma = 0
 
     def begin(self) -> None:
-        """Stop the controller at the next `advance`, and go on from there."""
+        """Stop the controller at the next `advance`, then continue the start-up."""
         self._forget()
         self.phase, self._begun_s = Phase.RESET, None
 

@@ -83,7 +83,7 @@ class EmulatedMoteusDrive(EmulatedDrive):
         return self._mode is Mode.POSITION
 
     def receive(self, frame: Frame, time_us: int, observe: Callable[[], Motion]) -> list[Frame]:
-        """Take a frame of the bus; the reply, if one is requested."""
+        """Receive a frame of the bus; return the reply if the frame requests one."""
         source, destination = frame.can_id >> 8 & 0x7F, frame.can_id & 0xFF
         if frame.can_id > 0xFFFF or not frame.fd or destination != self._id or not self.heard:
             return []
@@ -130,7 +130,7 @@ class EmulatedMoteusDrive(EmulatedDrive):
             self.errors += 1
 
     def expire(self, time_us: int) -> bool:
-        """Time out; whether the torque has changed by that."""
+        """Apply the command timeout; return whether the torque has changed."""
         if self._mode is not Mode.POSITION or time_us <= self._valid_until_us:
             return False
         self._mode = Mode.TIMEOUT

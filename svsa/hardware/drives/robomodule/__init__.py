@@ -74,7 +74,7 @@ LENGTH = 8
 
 
 class FrameError(SvsaError):
-    """A frame that the protocol does not know, or a value that does not fit into one."""
+    """A frame that is not part of the protocol, or a value that does not fit into a frame."""
 
     def __init__(self, violation: Violation) -> None:
         self.violation = violation

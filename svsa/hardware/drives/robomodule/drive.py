@@ -75,7 +75,7 @@ class RoboModuleDrive(Drive):
         self._unwrapped.reset()
 
     def begin(self) -> None:
-        """Reset the drive at the next `advance`, and go on from there."""
+        """Reset the drive at the next `advance`, then continue the start-up."""
         self._forget()
         self.phase, self._until = Phase.RESET, None
 
@@ -133,7 +133,7 @@ class RoboModuleDrive(Drive):
                 self.zeroed = True
 
     def send_current(self, bus: can.BusABC, current_ma: int, now: float) -> bool:
-        """Command a current; False where the last command was too short ago."""
+        """Command a current; Return False if the last command was sent too recently."""
         if not self.is_open(now):
             return False
         self.sent_s = now
@@ -143,7 +143,7 @@ class RoboModuleDrive(Drive):
         return True
 
     def send_zero(self, bus: can.BusABC, now: float) -> bool:
-        """Command zero current; False where the last command was too short ago."""
+        """Command zero current; Return False if the last command was sent too recently."""
         return self.send_current(bus, 0, now)
 
     def ask(self, bus: can.BusABC, now: float) -> None:

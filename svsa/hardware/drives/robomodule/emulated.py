@@ -65,7 +65,7 @@ class EmulatedRoboModuleDrive(EmulatedDrive):
         return self._mode is Mode.CURRENT
 
     def receive(self, frame: Frame, time_us: int, observe: Callable[[], Motion]) -> list[Frame]:
-        """Take a frame of the bus; the frames with which the drive answers."""
+        """Receive a frame of the bus; return the frames with which the drive answers."""
         if frame.extended:
             return []
         try:

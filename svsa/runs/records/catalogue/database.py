@@ -56,7 +56,7 @@ class Database:
         return self.revise(run_id, lambda _: changes)
 
     def revise(self, run_id: str, decide: Callable[[RunEntry], dict[str, Any]]) -> RunEntry:
-        """Replace the fields that `decide` returns for the present entry.
+        """Replace the fields that `decide` returns for the current entry.
 
         No other thread or process changes the table during this call, so that changes of the run's
         folder by `decide` are consistent with the table. An exception of `decide` leaves the run

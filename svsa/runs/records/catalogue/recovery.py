@@ -57,7 +57,7 @@ def index_runs(database: Database, runs: Path, trash: Path) -> Iterator[tuple[in
 
 
 def settle(database: Database, folder: Path, entry: RunEntry, failure: str) -> RunEntry:
-    """Return the present entry of a recording: ended if no process writes it.
+    """Return the current entry of a recording: ended if no process writes it.
 
     Args:
         database: Stores the entry of an ended recording, if the disk has space.

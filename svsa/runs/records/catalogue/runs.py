@@ -169,9 +169,9 @@ class Catalogue:
 
         Args:
             run_id: Id of the run.
-            name: New name; None keeps the present one.
-            tags: New tags; None keeps the present ones.
-            notes: New notes; None keeps the present ones.
+            name: New name; None keeps the current one.
+            tags: New tags; None keeps the current ones.
+            notes: New notes; None keeps the current ones.
             expected: Revision of the entry that the change is based on.
 
         Returns:

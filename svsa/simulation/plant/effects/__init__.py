@@ -36,7 +36,7 @@ else:
         "Effects",
         __base__=Checked,
         __module__=__name__,
-        __doc__="Everything that a bench has and an ideal simulation has not.",
+        __doc__="Everything that a bench has and an ideal simulation does not have.",
         **{effect.name: (effect.kind, effect.field) for effect in EFFECTS},
     )
 
@@ -54,7 +54,7 @@ PRESETS: dict[PresetName, Effects] = {"ideal": IDEAL, "rig": RIG, "full": EVERY}
 
 
 def find_preset(effects: Effects) -> PresetName | None:
-    """Find the preset with the same effects on, whatever their values; None for a mixture."""
+    """Find the preset with the same active effects, with any values; None for a mixture."""
     kind = _list_kinds(effects)
     return next((name for name, preset in PRESETS.items() if _list_kinds(preset) == kind), None)
 

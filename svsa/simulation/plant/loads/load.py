@@ -20,7 +20,7 @@ KIND, W2, W4, W6, START, END, A, B, C, D = range(10)
 
 
 class AnyLoad(Checked):
-    """A load with the session time of its onset; left out, it is the present time.
+    """A load with the session time of its onset; left out, it is the current time.
 
     Each file of this folder has a class derived from this one with its fields and a `kind:
     Literal["…"]`; the first line of its docstring is its description. Its `fill` writes its numbers

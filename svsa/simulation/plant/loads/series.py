@@ -40,7 +40,7 @@ class SeriesLoad(AnyLoad):
             function: Maps the time since onset, s, to (w2, w4, w6), N·m.
             duration_s: Duration of the load, s.
             step_s: Distance between two samples, s.
-            start_s: Session time of the onset, s; None for the present time.
+            start_s: Session time of the onset, s; None for the current time.
 
         Returns:
             The load.

@@ -119,7 +119,7 @@ export const putPosition = (reference: RequestOf<PositionReference>) =>
   call("put", "/position", reference);
 export const putStiffness = (reference: RequestOf<StiffnessReference>) =>
   call("put", "/stiffness", reference);
-/** Restart the present reference with a fade; of both joints each its own. */
+/** Restart the current reference with a fade; of both joints each its own. */
 async function repeatReference(name: "position" | "stiffness"): Promise<SessionState> {
   const { configuration } = await readState();
   const { arm } = configuration;

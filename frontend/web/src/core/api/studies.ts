@@ -37,7 +37,7 @@ export const checkStudy = (changes: StudyChanges) =>
 export const startStudy = (changes: StudyChanges) =>
   request("post", "studies", changes, WORK_TIMEOUT_MS) as Promise<Study>;
 /**
- * Delete permanently; a running study is cancelled first, which may take as long as its present
+ * Delete permanently; a running study is cancelled first, which may take as long as its current
  * rows.
  */
 export const deleteStudy = (study: string) =>

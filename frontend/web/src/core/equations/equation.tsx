@@ -40,7 +40,7 @@ function EquationRow({ equation }: { equation: Equation }) {
   );
 }
 
-/** Equations: of the paper's two laws, and of the other laws in the present lanes. */
+/** Equations: of the paper's two laws, and of the other laws in the current lanes. */
 export function equationsOf(topic: Topic, controlling: readonly LawRow[]): readonly Equation[] {
   const printed = EQUATIONS[topic];
   if (topic !== "controller") return printed;

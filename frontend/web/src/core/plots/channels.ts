@@ -134,7 +134,7 @@ const EVERY_PRESET = {
 
 export type PresetName = keyof typeof EVERY_PRESET;
 export const PRESETS: Readonly<Record<PresetName, readonly ChannelName[]>> = EVERY_PRESET;
-// Fixed limits of a plot's channels in the present session.
+// Fixed limits of a plot's channels in the current session.
 
 /**
  * One limit for each channel that has one, and one for channels with the same limit; in the color

@@ -33,7 +33,7 @@ export const lineStyleOf = (lineStyle: number): LineStyle => ({
 });
 
 /**
- * The present controller of lane 1 is selected: its curve is solid and wide, those of others are
+ * The current controller of lane 1 is selected: its curve is solid and wide, those of others are
  * dashed.
  */
 export const lineStyleOfLane = (lineStyle: number, isChosen: boolean): LineStyle => {

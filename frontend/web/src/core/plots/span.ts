@@ -35,7 +35,7 @@ export interface ChartView {
 
 export const PLOTS_VIEW: ChartView = { ring: shownRing, span: shownSpan, hasCursors: true };
 
-/** Freeze the plots on a copy of the present samples. */
+/** Freeze the plots on a copy of the current samples. */
 export function freeze(): void {
   if (frozen.peek() !== null) return;
   const span = shownSpan();

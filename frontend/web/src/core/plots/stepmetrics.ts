@@ -33,7 +33,7 @@ function measureHeld(ring: SampleRing, lane: number, fromS: number, toS: number)
   return Number.isNaN(rms) ? null : { peak, rms, recoveryS: Number.NaN, missingS };
 }
 
-/** The window that an event began: its end, and its metrics of the present lanes. */
+/** The window that an event began: its end, and its metrics of the current lanes. */
 function findWindow(state: SessionState, tick: number) {
   if (state.window.start_tick === tick) {
     return { endS: null, lanes: state.lanes.map((lane) => lane.in_window) };

@@ -39,7 +39,7 @@ interface Placed extends Segment {
   lane: number;
 }
 
-/** The present controllers first, in the order of the lanes, then the previous ones. */
+/** The current controllers first, in the order of the lanes, then the previous ones. */
 function listSegments(cast: LaneSegments): Placed[] {
   const lanes = cast.map((lane, index) => lane.map((one) => ({ ...one, lane: index + 1 })));
   const present = lanes.flatMap((lane) => lane.slice(-1));

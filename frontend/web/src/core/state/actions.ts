@@ -73,7 +73,7 @@ async function sendUnlessChanged(
 
 /**
  * Send a request for a control; resolves when the page shows the state of the server. base: the
- * state that the user saw, if not the present one.
+ * state that the user saw, if not the current one.
  */
 export async function perform(
   control: string,

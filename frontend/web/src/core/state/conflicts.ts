@@ -25,7 +25,7 @@ const listSections = (path: string): readonly Section[] => {
 
 /**
  * Base for a partial change of a section: the values that were drawn or rejected, because another
- * user may have changed the rest. The present ones if the section has another kind now.
+ * user may have changed the rest. The current ones if the section has another kind now.
  */
 export function currentValueOr<S extends Section, T extends Configuration[S]>(
   section: S,
@@ -65,7 +65,7 @@ function describe([path, value]: [path: string, value: unknown]): string | null 
   return text.meanwhile.value(quantity.label, formatQuantity(value, quantity));
 }
 
-/** Message that the value has changed, with the present value if the page has a name for it. */
+/** Message that the value has changed, with the current value if the page has a name for it. */
 export function describeChange(
   path: string,
   before: Configured | null,

@@ -71,7 +71,7 @@ export interface Segment {
   to: number;
 }
 
-/** Controllers of lanes 1, 2, … over time, the present one last. */
+/** Controllers of lanes 1, 2, … over time, the current one last. */
 export type LaneSegments = readonly (readonly Segment[])[];
 
 /** A string, so that dependents are recomputed only when a lane changes. */
@@ -89,14 +89,14 @@ export const laneSegments = computed<LaneSegments>(() =>
   ),
 );
 
-/** Present controller of a lane. */
+/** Current controller of a lane. */
 const currentSegment = (lane: readonly Segment[]): Segment | undefined => lane.at(-1);
 
 /** Controller of a lane at a time. */
 export const controllerAt = (lane: readonly Segment[], timeS: number): Segment | undefined =>
   lane.find(({ from, to }) => timeS >= from && timeS < to);
 
-/** Present names of the controllers: of lanes 1, 2, …, or of each arm. */
+/** Current names of the controllers: of lanes 1, 2, …, or of each arm. */
 export const controllerNames = computed(() => {
   const names = laneSegments.value.map((lane) => currentSegment(lane)?.name ?? "");
   return session.value !== null && armOf(session.value) !== null ? nameArms(names) : names;

@@ -65,7 +65,7 @@ export function describePlane({ x, y, paint, onBrush, onPick, watch }: Plane): S
   return { look, data: [[...x.span], [...y.span]], watch: listen };
 }
 
-/** The present brush, which other parts may also set. */
+/** The current brush, which other parts may also set. */
 export function showBrush(plot: uPlot, brush: Brush | null): void {
   const [left, right] = (brush?.x ?? []).map((at) => plot.valToPos(at, "x"));
   const [bottom, top] = (brush?.y ?? []).map((at) => plot.valToPos(at, "y"));

@@ -229,7 +229,7 @@ function restoreJoint(design: JointDesign, state: SessionState): Request[] {
   return calls;
 }
 
-/** The requests that restore a design: one for each part that differs from the present one. */
+/** The requests that restore a design: one for each part that differs from the current one. */
 export function restoringRequests(design: Design, state: SessionState): Request[] {
   const now = designOf(state);
   if (design.joints.length !== now.joints.length) return [];

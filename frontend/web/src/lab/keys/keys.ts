@@ -1,4 +1,4 @@
-/** Keyboard commands of the page in its present state. */
+/** Keyboard commands of the page in its current state. */
 import { signal } from "@preact/signals";
 import { pause } from "../../core/api/client";
 import type { SessionState } from "../../core/api/types";

@@ -63,7 +63,7 @@ function putReference(follows: Follows, reference: Reference) {
     : putStiffness(reference as RequestOf<StiffnessReference>);
 }
 
-/** The present reference restarts: the server treats a repeated request as one. */
+/** The current reference restarts: the server treats a repeated request as one. */
 async function follow(follows: Follows, reference: Reference) {
   const before = session.peek()?.revision;
   const state = await putReference(follows, reference);

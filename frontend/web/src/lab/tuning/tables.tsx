@@ -39,7 +39,7 @@ export function ValueTable({ tuning, present, best }: FoundProps) {
 
 const write = (value: number | null): string => (value === null ? "–" : formatNumber(value));
 
-/** Results of the present and of the best parameters: on validation trials once it has ended. */
+/** Results of the current and of the best parameters: on validation trials once it has ended. */
 export function ResultTable({ tuning, present, best }: FoundProps) {
   const before = tuning.finals.find(({ number }) => number === present.number) ?? present;
   const rows = [

@@ -99,7 +99,7 @@ function applyRun(run: RunSummary): void {
   runList.value = { ...list, runs: list.runs.map((row) => (row.id === run.id ? run : row)) };
 }
 
-/** Null if it was rejected; the list then has the present state of the run. */
+/** Null if it was rejected; the list then has the current state of the run. */
 export async function patchRun(run: RunSummary, patch: RunPatch): Promise<RunSummary | null> {
   const answer = await attempt(() => changeRun(run, patch));
   if (answer) applyRun(answer);

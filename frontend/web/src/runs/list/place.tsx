@@ -1,4 +1,4 @@
-/** The present page: lab, exercise, actuators, ranking, leaderboard, grades, study, search, runs, one run at a time, overlay. */
+/** The current page: lab, exercise, actuators, ranking, leaderboard, grades, study, search, runs, one run at a time, overlay. */
 import { signal } from "@preact/signals";
 import type { ComponentChildren } from "preact";
 

@@ -35,7 +35,7 @@ function readRefusal(shown: Document | null): string | null {
   }
 }
 
-/** The replay page of a run, in the present theme. */
+/** The replay page of a run, in the current theme. */
 export function ReplayFrame({ source, name, startS, onMoment }: ReplayFrameProps) {
   const frame = useRef<HTMLIFrameElement>(null);
   const moment = useRef(startS);

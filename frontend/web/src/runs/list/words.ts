@@ -26,7 +26,7 @@ const SHORT = new Intl.DateTimeFormat("en-GB", {
 });
 const SHORT_FOR_MS = 300 * 86_400_000;
 
-/** As `formatMoment`, with the year only if it is not the present one. */
+/** As `formatMoment`, with the year only if it is not the current one. */
 export function formatMomentShort(iso: string): string {
   const isRecent = Date.now() - new Date(iso).getTime() < SHORT_FOR_MS;
   return isRecent ? SHORT.format(new Date(iso)) : formatMoment(iso);

@@ -46,7 +46,7 @@ export function seek(time: number): void {
   follow();
 }
 
-/** Move by whole frames from the present one. */
+/** Move by whole frames from the current one. */
 function stepFrames(count: number): void {
   isPlaying.value = false;
   seek((Math.round(timeS.peek() / frameS) + count) * frameS);
@@ -75,7 +75,7 @@ export function showRange(from: number, to: number): void {
   range.value = { from: start, to: start + width };
 }
 
-/** Zoom in (factor < 1) or out; the present time keeps its position. */
+/** Zoom in (factor < 1) or out; the current time keeps its position. */
 export function zoom(factor: number): void {
   const { from, to } = range.peek();
   const time = timeS.peek();

@@ -104,7 +104,7 @@ export function Plot(props: PlotProps) {
   );
 }
 
-// The present time of the replay on a plot: a line, and the values at it.
+// The current time of the replay on a plot: a line, and the values at it.
 
 const LINE = "now";
 
@@ -124,7 +124,7 @@ function placeTimeLine(plot: uPlot): void {
   line.style.translate = `${plot.valToPos(time, "x").toFixed(2)}px`;
 }
 
-/** Value of a curve at the pointer, otherwise at the present time. */
+/** Value of a curve at the pointer, otherwise at the current time. */
 function readCurve({ data: [time], cursor }: uPlot, values: Float32Array): number {
   const step = (time[1] ?? 1) - (time[0] ?? 0);
   const now = Math.min(Math.round(timeS.peek() / step), time.length - 1);

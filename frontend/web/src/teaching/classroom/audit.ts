@@ -15,7 +15,7 @@ export const isReading = signal(false);
 
 let queryNumber = 0;
 
-/** Run the present query; among late answers only that of the latest query counts. */
+/** Run the current query; among late answers only that of the latest query counts. */
 async function read(): Promise<void> {
   const number = ++queryNumber;
   isReading.value = true;

@@ -123,7 +123,7 @@ export async function openExercise(name: string): Promise<void> {
 }
 
 /**
- * The server stores the present step, for another browser; a viewer without control stores none.
+ * The server stores the current step, for another browser; a viewer without control stores none.
  */
 export async function storePlace(name: string, at: string): Promise<void> {
   try {
@@ -150,7 +150,7 @@ export async function setUp(of: Step): Promise<void> {
   if (of.free.length === 0) await run(of);
 }
 
-/** Start at t = 0 with the present settings, recorded to the end of the step's time. */
+/** Start at t = 0 with the current settings, recorded to the end of the step's time. */
 export async function run(of: Step): Promise<void> {
   const name = exercise.peek()?.name ?? "";
   const performForLesson = (request: Parameters<typeof perform>[1]) =>

@@ -120,7 +120,7 @@ function Form() {
   );
 }
 
-/** How to submit a law, obstacles on this machine, and progress of the present one. */
+/** How to submit a law, obstacles on this machine, and progress of the current one. */
 export function Start() {
   const now = board.value;
   if (now === null) return null;
