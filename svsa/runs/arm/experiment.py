@@ -8,7 +8,6 @@ from svsa.actuators.parameters import INERTIAS_KG_M2
 from svsa.control.installed import PAPERS_LAW
 from svsa.errors import ParameterError, Violation
 from svsa.inputs.checked import check_number
-from svsa.inputs.nearest import suggest
 from svsa.runs.configuration import ArmSetup, Configuration
 from svsa.runs.experiment import build_actuator_experiment
 from svsa.runs.shorthand import change_configuration, read_load
@@ -143,8 +142,8 @@ def _read_tip_loads(given: Load | Sequence[Load]) -> tuple[Load, ...]:
 
 
 def _build_named(name: str, arm: ArmParameters | None) -> Configuration:
-    if name not in ARMS:
-        finding = f"there is no such arm{suggest(name, ARMS)}"
+    if not isinstance(name, str) or name not in ARMS:
+        finding = f"there is no such arm; the arms are {', '.join(ARMS)}"
         raise ParameterError(Violation("experiment", name, "", "", finding=finding))
     named = ARMS[name]
     links = named.links if arm is None else arm

@@ -175,6 +175,7 @@ def place(q1, q2):
         ({"joint2": {"sampling": {"period_s": 0.002}}}, "joint2.sampling.period_s is 0.002"),
         ({"joint2": {"law": "nothing"}}, "joint2.law"),
         ({"experiment": "rod"}, "there is no such arm.*rods"),
+        ({"experiment": None}, "there is no such arm.*rods"),
         ({"stifness": 3.0}, "stifness"),
         ({"steps": 1.5}, "steps is 1.5: it must be a whole number"),
         ({"arm": {"length1_m": 0.3}}, "arm is .*: it must be svsa.ArmParameters"),

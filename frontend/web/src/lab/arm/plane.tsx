@@ -51,6 +51,7 @@ function mostForce(state: SessionState): number {
   const stiffness = [1, 2].map((lane) => samples.ring.newest("stiffness_nm_per_rad", lane));
   const torque = Math.min(
     state.configuration.limits.torque1_nm,
+    state.configuration.arm?.joint2.limits.torque1_nm ?? Infinity,
     DEFLECTION_RAD * Math.min(...stiffness.filter(Number.isFinite)),
   );
   return (FORCE_SHARE * torque) / reachOf(lengthsOf(state));
