@@ -15,6 +15,7 @@ from svsa.control.installed import get_title
 from svsa.control.law_names import AnyLaw
 from svsa.errors import SvsaError
 from svsa.inputs.extras import require_extra
+from svsa.inputs.output_file import check_writable
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -181,6 +182,7 @@ def arm_collision(
     """Let the tip of an arm collide with a wall at several stiffnesses, in both directions."""
     if plot is not None:
         require_extra("plot")
+        check_writable("--plot", plot)
     try:
         found = [
             measure_collision(law, stiffness, direction, wall, damping)

@@ -16,6 +16,7 @@ from svsa.control.installed import get_title
 from svsa.control.law_names import AnyLaw
 from svsa.errors import SvsaError
 from svsa.inputs.extras import require_extra
+from svsa.inputs.output_file import check_writable
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -119,6 +120,7 @@ def arm_map(
     """Map the error of an arm's controllers over tip mass and stiffness."""
     if plot is not None:
         require_extra("plot")
+        check_writable("--plot", plot)
     gains = Gains.from_poles([-pole] * 4, [-_STIFFNESS_POLE] * 2)
     common = {"gains": gains, "observer": observer}
     adapted = {**common, "feedforward": True, "adaptation": True}

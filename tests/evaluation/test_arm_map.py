@@ -51,6 +51,20 @@ def test_command_prints_the_map_as_json():
     assert row[column] == pytest.approx(5.06, abs=0.01)
 
 
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["arm-map", "fl", "--plot"],
+        ["arm-collision", "--plot"],
+        ["ranking", "arm", "fl", "--save"],
+    ],
+)
+def test_file_that_cannot_be_written_is_rejected_at_once(arguments, tmp_path):
+    answer = CliRunner().invoke(app, [*arguments, str(tmp_path / "missing" / "file.png")])
+    assert isinstance(answer.exception, svsa.ParameterError)
+    assert "in an existing folder" in str(answer.exception)
+
+
 def test_unknown_law_is_named_in_the_error():
     answer = CliRunner().invoke(app, ["arm-map", "flx"])
     assert answer.exit_code == 2

@@ -1,6 +1,5 @@
 """`svsa falsify`: find the load that degrades a law most, save it, run other laws under it."""
 
-import os
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -11,9 +10,9 @@ from rich.markup import escape
 from rich.table import Table
 
 from svsa.control.installed import PAPERS_LAW, get_title, list_law_names
-from svsa.errors import ParameterError, Violation
 from svsa.evaluation.progress_bar import Report, show_progress
 from svsa.inputs.extras import require_extra
+from svsa.inputs.output_file import check_writable
 
 if TYPE_CHECKING:
     from svsa.evaluation.falsifier.adversary import Adversary
@@ -60,10 +59,10 @@ def search_command(
 
     if picture is not None:
         require_extra("plot")
-        _check_writable("picture", picture)
+        check_writable("--picture", picture)
     adversary = read_adversary(source, **({} if law is None else {"law": law}))
     path = output or Path(f"{Path(source).stem}-{adversary.law}.toml")
-    _check_writable("output", path)
+    check_writable("--output", path)
     known = read_search(path, adversary, seed, "cma")
     with show_progress(_messages, get_title(adversary.law), runs) as report:
         on_generation = _report_worst(adversary, report)
@@ -182,13 +181,6 @@ def _compare_laws(
 
         save_picture(scenario, laws, picture)
         _messages.print(f"Picture: {picture}", highlight=False)
-
-
-def _check_writable(name: str, path: Path) -> None:
-    """Raise `ParameterError` where no file can be written, before a long search and not after."""
-    if path.is_dir() or not os.access(path if path.exists() else path.parent, os.W_OK):
-        bound = "a file that can be written, in a folder that is there"
-        raise ParameterError(Violation(f"--{name}", path, "", bound))
 
 
 def _describe(found: "Falsified", path: Path) -> dict[str, object]:

@@ -11,6 +11,7 @@ from rich.table import Table
 
 from svsa.errors import ParameterError, Violation
 from svsa.evaluation.progress_bar import show_progress
+from svsa.inputs.output_file import check_writable
 
 if TYPE_CHECKING:
     from svsa.evaluation.ranking.arm import ArmProtocol, ArmResults, ArmRow
@@ -57,6 +58,8 @@ def rank_arm(
     for key in rows or ():
         if key not in offered:
             raise ParameterError(Violation("row", key, "", "one of " + ", ".join(offered)))
+    if save is not None:
+        check_writable("--save", save)
     known = _read_known(save, protocol)
     done = () if rows else [row.controller for row in known]
     chosen = [offered[key] for key in rows or offered if offered[key] not in done]

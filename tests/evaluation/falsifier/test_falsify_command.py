@@ -82,7 +82,7 @@ def test_unwritable_result_file_is_rejected_before_the_search(tmp_path, monkeypa
     (tmp_path / "pulse.toml").write_text(GOOD)
     monkeypatch.setattr(finding, "measure_attacks", None)
     for place in ("nowhere/found.toml", "."):
-        with pytest.raises(ParameterError, match=f"--{option} is .*in a folder that is there"):
+        with pytest.raises(ParameterError, match=f"--{option} is .*in an existing folder"):
             search(f"--{option}", place)
 
 
