@@ -33,7 +33,8 @@ def choose_start() -> BaseContext:
     if sys.platform != "linux":
         return multiprocessing.get_context("spawn")
     context = multiprocessing.get_context("forkserver")
-    context.set_forkserver_preload([name for name in list(sys.modules) if name.startswith("svsa")])
+    modules = [name for name in list(sys.modules) if name.startswith("svsa")]
+    context.set_forkserver_preload([*modules, "pyarrow.parquet"])  # imported at its first use
     return context
 
 

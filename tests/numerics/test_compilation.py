@@ -110,13 +110,14 @@ import svsa
 from svsa.numerics.compilation import compiled
 
 svsa.simulate("4a", "ndobc", duration_s=0.01)
-late = ("scipy.linalg", "pyarrow", "sqlite3", "svsa.analysis.design")
+late = ("scipy.linalg", "sqlite3", "svsa.analysis.design")
 print([name for name in late if name in sys.modules])
 
 for command in entry_points(group="svsa.commands"):
     command.load()
 import svsa_server.app
-print([name for name in ("scipy.special", "scipy.stats", "scipy.signal") if name in sys.modules])
+late = ("scipy.special", "scipy.stats", "scipy.signal", "pyarrow")
+print([name for name in late if name in sys.modules])
 
 @compiled
 def multiply(a, b):

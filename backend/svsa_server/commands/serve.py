@@ -6,6 +6,7 @@ import os
 import socket
 import sys
 import threading
+from importlib import import_module
 from pathlib import Path
 from typing import IO
 
@@ -137,6 +138,8 @@ def run_server(
         prepare((PAPERS_LAW, BASELINE))
     else:
         prepare(actuator=get_mechanism_name(read_bench_design(read_bench(bench)).actuator))
+        # Otherwise imported at the first record, which would hold back the server for 0.1 s.
+        import_module("pyarrow.parquet")
     keys, reported = ClassKeys.open(find_data_folder()) if config.classroom else (None, None)
     from svsa_server.app import build_app  # imported here: rejections come first
     from svsa_server.responsive import ResponsiveApp

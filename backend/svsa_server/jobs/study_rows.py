@@ -1,17 +1,19 @@
 """Rows of a study in binary form: a header, then each column as numbers."""
 
+from __future__ import annotations
+
 import json
 import struct
 from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-import pyarrow as pa
 
 from svsa.evaluation.studies.rows import list_parts, read_rows
 from svsa.evaluation.studies.stored import StoredStudy, StudyError
 from svsa.evaluation.studies.tables import make_plain
 from svsa.evaluation.studies.work import DRAW, ROW, build_schema
+from svsa.inputs import arrow as pa
 from svsa.inputs.checked import check_number
 
 MEDIA_TYPE = "application/octet-stream"

@@ -22,9 +22,11 @@ from svsa.analysis.identification.record import (
     find_segments,
 )
 from svsa.errors import ParameterError, Violation
+from svsa.inputs import arrow as pa
 from svsa.inputs.checked import check_number
 from svsa.runs.configuration import Design
 from svsa.runs.experiment import build_experiment
+from svsa.runs.result.recorded import find_record
 
 if TYPE_CHECKING:
     from svsa.runs.result.result import Result
@@ -66,8 +68,6 @@ def identify(
         IdentificationError: If the measurement cannot be used.
     """
     if not (isinstance(source, (str, Path)) and str(source).lower().endswith(".csv")):
-        from svsa.runs.result.recorded import find_record  # imported here: it imports pyarrow
-
         return identify_record(find_record(source), progress)
     if stiffness_nm_per_rad is None:
         bound = "given with a CSV file: the stiffness without deflection in its first row"
@@ -116,11 +116,9 @@ def read_csv_evidence(
 
 def _read_table(path: Path) -> dict[str, np.ndarray]:
     """The columns of a CSV file as numbers."""
-    import pyarrow.csv  # imported here: the import is slow
-
     try:
-        table = pyarrow.csv.read_csv(path)
-    except (OSError, pyarrow.ArrowInvalid) as error:
+        table = pa.csv.read_csv(path)
+    except (OSError, pa.ArrowInvalid) as error:
         bound = f"a readable CSV file with a head ({error})"
         raise ParameterError(Violation("file", str(path), "", bound)) from None
     wanted = (TIME, *(f"{name}_rad" for name in ANGLES), *TORQUES)
@@ -132,8 +130,8 @@ def _read_table(path: Path) -> dict[str, np.ndarray]:
     columns = {}
     for name in table.column_names:
         try:
-            values = table[name].cast(pyarrow.float64()).to_numpy()
-        except pyarrow.ArrowInvalid:
+            values = table[name].cast(pa.float64()).to_numpy()
+        except pa.ArrowInvalid:
             continue
         columns[name] = values
     for name, values in columns.items():

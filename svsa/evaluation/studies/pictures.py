@@ -1,5 +1,7 @@
 """Figures of a study: distributions, success, sensitivities, and the worst runs."""
 
+from __future__ import annotations
+
 import math
 import textwrap
 from collections.abc import Sequence
@@ -7,8 +9,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pyarrow as pa
-import pyarrow.compute as pc
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure as Picture
@@ -22,6 +22,7 @@ from svsa.evaluation.studies.study import Study
 from svsa.evaluation.studies.summary import SUCCEEDED, Sensitivity
 from svsa.evaluation.studies.tables import convert_shown, format_metric, format_unit
 from svsa.evaluation.studies.work import LAW, ROW
+from svsa.inputs import arrow as pa
 from svsa.runs.result.law_style import style_law
 from svsa.runs.result.plot import label_axes
 
@@ -50,7 +51,7 @@ def save_pictures(
         OSError: If the folder cannot be written.
     """
     study = stored.study
-    rows = rows.filter(pc.field("fault").is_null() | (pc.field("fault") != REFUSED))
+    rows = rows.filter(pa.compute.field("fault").is_null() | (pa.compute.field("fault") != REFUSED))
     pictures = {"distributions": draw_distributions(study, rows)}
     numeric = [one.column for one in study.vary if one.is_numeric]
     if len(numeric) > 1 and study.sampling != "sensitivity":
@@ -78,7 +79,7 @@ def draw_distributions(study: Study, rows: pa.Table) -> Picture:
     for axes, name in zip(panels, names, strict=False):
         for law in study.laws:
             own = select_rows(rows, LAW, law)
-            values = np.sort(own.filter(pc.field("fault").is_null())[name].to_numpy())
+            values = np.sort(own.filter(pa.compute.field("fault").is_null())[name].to_numpy())
             shares = 100.0 * np.arange(1, len(values) + 1) / max(len(own), 1)
             axes.step(
                 convert_shown(name, values),

@@ -4,15 +4,15 @@ A part is a file that is complete or does not exist. The existing files define t
 study can continue after any interruption, with parts of any size.
 """
 
+from __future__ import annotations
+
 import re
 from collections.abc import Iterator
 from pathlib import Path
 
-import pyarrow as pa
-import pyarrow.parquet as pq
-
 from svsa.evaluation.studies.stored import StoredStudy, StudyError
 from svsa.evaluation.studies.work import build_schema, list_repeating
+from svsa.inputs import arrow as pa
 from svsa.runs.records.former_words import METRICS
 from svsa.runs.records.header import replace_file
 
@@ -34,7 +34,7 @@ def list_parts(stored: StoredStudy) -> list[tuple[Span, Path]]:
     parts: list[tuple[Span, Path]] = []
     table = stored.folder / TABLE_FILE
     if table.exists():
-        rows = pq.read_metadata(table).num_rows
+        rows = pa.parquet.read_metadata(table).num_rows
         parts.append(((0, rows // len(stored.study.laws)), table))
     for path in sorted((stored.folder / PARTS).glob("*.parquet")):
         if found := _PART.fullmatch(path.name):
@@ -79,7 +79,7 @@ def join_parts(stored: StoredStudy) -> Path | None:
         return table if whole else None
     draft = table.with_suffix(".tmp")
     schema = build_schema(stored.study)
-    with pq.ParquetWriter(draft, schema, use_dictionary=list_repeating(schema)) as writer:
+    with pa.parquet.ParquetWriter(draft, schema, use_dictionary=list_repeating(schema)) as writer:
         for group in _regroup(whole):
             writer.write_table(group, row_group_size=ROWS_PER_GROUP)
     draft.replace(table)
@@ -93,7 +93,7 @@ def _regroup(paths: list[Path]) -> Iterator[pa.Table]:
     """Regroup the rows in tables of `ROWS_PER_GROUP`, the last one shorter."""
     waiting: list[pa.Table] = []
     for path in paths:
-        with pq.ParquetFile(path) as file:
+        with pa.parquet.ParquetFile(path) as file:
             for number in range(file.num_row_groups):
                 waiting.append(_translate(file.read_row_group(number)))
                 while sum(map(len, waiting)) >= ROWS_PER_GROUP:
@@ -107,9 +107,9 @@ def _regroup(paths: list[Path]) -> Iterator[pa.Table]:
 def _read_part(path: Path, columns: list[str] | None) -> pa.Table:
     if columns is not None:
         former = {present: name for name, present in METRICS.items()}
-        there = pq.read_schema(path).names
+        there = pa.parquet.read_schema(path).names
         columns = [one if one in there else former.get(one, one) for one in columns]
-    return _translate(pq.read_table(path, columns=columns))
+    return _translate(pa.parquet.read_table(path, columns=columns))
 
 
 def _translate(table: pa.Table) -> pa.Table:
@@ -131,7 +131,4 @@ def read_rows(stored: StoredStudy, columns: list[str] | None = None) -> pa.Table
 
 def select_rows(rows: pa.Table, column: str, value: str | int) -> pa.Table:
     """Select the rows whose `column` has this value."""
-    # Imported late: it takes 10 MB, which a lab without studies does not need.
-    import pyarrow.compute as pc
-
-    return rows.filter(pc.field(column) == value)
+    return rows.filter(pa.compute.field(column) == value)

@@ -4,11 +4,12 @@ The error of a run that ended in a fault is not comparable with that of a comple
 it counts as worse than every value, and in paired differences both runs must be complete.
 """
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
-import pyarrow as pa
 
 from svsa.errors import ParameterError, Violation
 from svsa.evaluation.metrics import METRICS, RECOVERY
@@ -28,6 +29,7 @@ from svsa.evaluation.studies.setting import ACTUATOR
 from svsa.evaluation.studies.stored import StoredStudy, StudyError
 from svsa.evaluation.studies.study import Study
 from svsa.evaluation.studies.work import DRAW, LAW
+from svsa.inputs import arrow as pa
 
 SHARES = (0.05, 0.5, 0.95)
 SUCCEEDED = "succeeded"

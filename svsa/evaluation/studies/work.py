@@ -1,17 +1,18 @@
 """Rows of a study's table: a span of samples, run under every law."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-import pyarrow as pa
-import pyarrow.parquet as pq
 
 from svsa.actuators.domain import build_domain
 from svsa.errors import ParameterError
 from svsa.evaluation.studies.outcome import Success, build_outcome, build_refused
 from svsa.evaluation.studies.samples import ParameterSamples, build_configurations, draw
 from svsa.evaluation.studies.study import Study
+from svsa.inputs import arrow as pa
 from svsa.runs.batch import run_configurations
 from svsa.runs.configuration import Configuration
 
@@ -53,7 +54,7 @@ def run_part(study: Study, first: int, count: int) -> bytes:
     """Compute the rows of the samples `first` to `first + count − 1` as a Parquet file."""
     sink = pa.BufferOutputStream()
     rows = run_trials(study, first, count)
-    pq.write_table(rows, sink, use_dictionary=list_repeating(rows.schema))
+    pa.parquet.write_table(rows, sink, use_dictionary=list_repeating(rows.schema))
     return sink.getvalue().to_pybytes()
 
 

@@ -1,5 +1,7 @@
 """Samples of a finished record: one self-describing Parquet file."""
 
+from __future__ import annotations
+
 import contextlib
 import io
 import json
@@ -8,10 +10,8 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import IO, Any, NamedTuple
 
-import pyarrow as pa
-import pyarrow.parquet as pq
-
 from svsa.errors import Fault
+from svsa.inputs import arrow as pa
 from svsa.runs.events import Event
 from svsa.runs.records.bench_start import START_FILE, BenchStart, dump_start
 from svsa.runs.records.former_words import translate_command
@@ -35,7 +35,7 @@ EVENTS_KEY = b"svsa.events"
 ROWS_PER_GROUP = 65_536
 
 Commands = list[tuple[int, dict[str, Any]]]
-Batches = Iterable[pa.RecordBatch]
+Batches = Iterable["pa.RecordBatch"]
 
 
 class Finished(NamedTuple):
@@ -102,7 +102,7 @@ def write_parquet(
     if events:
         inside[EVENTS_KEY] = dump_events(events)
     schema = schema.with_metadata(inside)
-    with pq.ParquetWriter(
+    with pa.parquet.ParquetWriter(
         sink, schema, compression="zstd", use_dictionary=False, write_page_checksum=True
     ) as writer:
         for group in _group(batches):
@@ -118,7 +118,7 @@ def unpack_parquet(content: bytes, folder: Path) -> None:
         RecordError: If the file is not such a file.
     """
     try:
-        inside = pq.read_metadata(io.BytesIO(content)).metadata or {}
+        inside = pa.parquet.read_metadata(io.BytesIO(content)).metadata or {}
         header = parse_header(inside[HEADER_KEY].decode())
         lines = json.loads(inside[COMMANDS_KEY])
         commands = b"".join(write_command(line["tick"], line["command"]) for line in lines)
@@ -137,14 +137,14 @@ def unpack_parquet(content: bytes, folder: Path) -> None:
     draft.rename(folder)
 
 
-def open_parquet(folder: Path) -> pq.ParquetFile:
+def open_parquet(folder: Path) -> pa.parquet.ParquetFile:
     """Open the finished file of a record.
 
     Raises:
         RecordError: If it is damaged or missing.
     """
     try:
-        return pq.ParquetFile(folder / PARQUET_FILE, page_checksum_verification=True)
+        return pa.parquet.ParquetFile(folder / PARQUET_FILE, page_checksum_verification=True)
     except FileNotFoundError:
         raise RecordError(f"Record {folder.name} has no {PARQUET_FILE}.") from None
     except (OSError, pa.ArrowException, ValueError) as error:

@@ -1,5 +1,7 @@
 """Reading of records: finished, growing or interrupted; completely or in stretches."""
 
+from __future__ import annotations
+
 import contextlib
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
@@ -7,9 +9,9 @@ from functools import cached_property
 from pathlib import Path
 
 import numpy as np
-import pyarrow as pa
 
 from svsa.errors import Fault
+from svsa.inputs import arrow as pa
 from svsa.inputs.file_lock import try_lock
 from svsa.runs.events import Event
 from svsa.runs.records.bench_start import BenchStart, read_start
@@ -38,7 +40,7 @@ from svsa.runs.records.stream import (
     read_stream,
 )
 
-ReadBatches = Callable[[Sequence[str] | None, int, int], Iterator[pa.RecordBatch]]
+ReadBatches = Callable[[Sequence[str] | None, int, int], Iterator["pa.RecordBatch"]]
 
 
 @dataclass(frozen=True, eq=False)

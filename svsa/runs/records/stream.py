@@ -5,6 +5,8 @@ Columns of the stream and of the finished Parquet file: tick (int64), time_s, th
 flatbuffer with the length of the body), the body.
 """
 
+from __future__ import annotations
+
 import os
 import struct
 from collections.abc import Iterator
@@ -12,8 +14,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-import pyarrow as pa
 
+from svsa.inputs import arrow as pa
 from svsa.runs.records.header import RecordError, RecordHeader
 
 HEADER_KEY = b"svsa.header"

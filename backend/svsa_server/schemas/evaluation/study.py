@@ -3,7 +3,6 @@
 import itertools
 from typing import Annotated, Any, Literal, Self
 
-import pyarrow as pa
 from pydantic import BaseModel, Field, model_validator
 
 from svsa.control.installed import InstalledLaw
@@ -19,6 +18,7 @@ from svsa.evaluation.studies.study import MAX_LAWS, MAX_RUNS, Study
 from svsa.evaluation.studies.summary import SUCCEEDED
 from svsa.evaluation.studies.tables import format_metric
 from svsa.evaluation.studies.work import build_schema
+from svsa.inputs import arrow as pa
 from svsa.inputs.checked import Checked, Whole, quantity
 from svsa_server.access.owned import Owned
 from svsa_server.access.roles import Person

@@ -3,15 +3,15 @@
 Other packages add formats by the entry point group `svsa.exports` (the server adds "html").
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from importlib.metadata import entry_points
 from pathlib import Path
 from typing import IO, NamedTuple
 
-import pyarrow as pa
-import pyarrow.csv
-
 from svsa.errors import ParameterError, Violation
+from svsa.inputs import arrow as pa
 from svsa.runs.records.export.mat import write_mat
 from svsa.runs.records.export.mcap import write_mcap
 from svsa.runs.records.header import RecordError
@@ -30,7 +30,7 @@ def write_csv(record: Record, stream: IO[bytes]) -> None:
         unit = (field.metadata or {})[b"unit"].decode()
         fields.append(field.with_name(f"{field.name} [{unit}]" if field.name != "tick" else "tick"))
     schema = pa.schema(fields)
-    with pyarrow.csv.CSVWriter(stream, schema) as writer:
+    with pa.csv.CSVWriter(stream, schema) as writer:
         for batch in record.iterate_batches():
             writer.write_batch(pa.RecordBatch.from_arrays(batch.columns, schema=schema))
 
