@@ -174,7 +174,7 @@ def arm_collision(
         float, typer.Option(help="Contact stiffness of the wall, N/m.", min=100.0, max=1e5)
     ] = WALL_N_PER_M,
     damping: Annotated[
-        float, typer.Option(help="Contact damping of the wall, N·s/m.", min=0.0, max=1000.0)
+        float, typer.Option(help="Contact damping of the wall, N·s/m.", min=0.0, max=200.0)
     ] = DAMPING_NS_PER_M,
     plot: Annotated[Path | None, typer.Option(help="Draw into this file (.png, .pdf).")] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,

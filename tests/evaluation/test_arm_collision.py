@@ -7,8 +7,15 @@ import pytest
 from rich.console import Console
 from typer.testing import CliRunner
 
+from svsa.actuators.arm.parameters import RODS
 from svsa.cli import app
-from svsa.evaluation.arm_collision import _build_table, draw_collisions, measure_collision
+from svsa.evaluation.arm_collision import (
+    _build_table,
+    build_collision,
+    draw_collisions,
+    measure_collision,
+)
+from svsa.simulation.arm.contact import check_wall
 
 
 @pytest.mark.parametrize("direction", [1, -1])
@@ -60,6 +67,15 @@ def test_command_prints_the_collisions_as_json():
     assert len(found) == 10
     last = next(one for one in found if one["stiffness_nm_per_rad"] == 140.0)
     assert last["peak_n"] == pytest.approx(34.1, abs=0.05)
+
+
+def test_largest_damping_of_the_command_is_one_that_the_steps_can_follow():
+    """The command cannot set more steps, so it accepts no damping that needs them."""
+    _, wall = build_collision(1, 100.0, 200.0)
+    check_wall(wall, RODS.build(), 0.001)
+    refused = CliRunner().invoke(app, ["arm-collision", "--damping", "201"])
+    assert refused.exit_code == 2
+    assert "200" in refused.output
 
 
 def test_unknown_law_is_named_in_the_error():
