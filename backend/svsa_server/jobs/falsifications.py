@@ -53,7 +53,8 @@ def search(folder: JobFolder, task: Task) -> bool:
     compared = run_scenario(found.scenario, list_baselines(task.adversary.law))
     outcomes = make_plain([one._asdict() for one in compared])
     (folder.path / _OUTCOMES).write_text(json.dumps(outcomes), encoding="utf-8")
-    (folder.path / _SCENARIO).write_text(format_scenario(found.scenario), encoding="utf-8")
+    # Complete from its first moment on: the server reads the result as soon as this file exists.
+    replace_file(folder.path / _SCENARIO, format_scenario(found.scenario).encode())
     return found.is_complete
 
 
