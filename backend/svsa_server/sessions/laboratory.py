@@ -241,7 +241,7 @@ class EmulatorOperator(Operator):
 
     def _tell(self, say: Callable[[EmulatorControl], object]) -> None:
         try:
-            with EmulatorControl(self._port, timeout_s=0.2) as control:
+            with EmulatorControl(self._port, OPERATOR_TIMEOUT_S) as control:
                 say(control)
         except EmulatorError as error:
             _log.warning("The emulator was not notified. %s", error)
