@@ -33,7 +33,7 @@ from svsa_server.problems import UnknownError
 
 MAX_BROWSER_MESSAGE_BYTES = 4096
 MAX_SCENE_MESSAGE_BYTES = 16 * 1024 * 1024
-_CONNECT_TIMEOUT_S = 5.0
+_CONNECT_TIMEOUT_S = 20.0
 _SEND_TIMEOUT_S = 20.0
 _NO_PEER = ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT)
 """No peer verification: the connection to a port of this machine is not encrypted."""

@@ -21,6 +21,7 @@ from tests.server.scene.viewed_lab import (
     run_in_lab,
     wait_for,
 )
+from tests.waiting import PATIENCE_S
 
 FORGED: list[dict[str, Any]] = [
     {"type": "RemoveSceneNodeMessage", "name": LINK, "owner": ""},
@@ -36,9 +37,14 @@ FORGED: list[dict[str, Any]] = [
 ]
 
 
+def open_client(lab: Lab) -> httpx.AsyncClient:
+    """Return a client of REST; the first answer waits for the start of viser."""
+    return httpx.AsyncClient(base_url=lab.http, timeout=PATIENCE_S, trust_env=False)
+
+
 def test_page_is_served_with_focus_injected_and_compressed_on_request() -> None:
     async def check(lab: Lab) -> None:
-        async with httpx.AsyncClient(base_url=lab.http, trust_env=False) as client:
+        async with open_client(lab) as client:
             plain = await client.get("/viser/lab/", headers={"Accept-Encoding": "identity"})
             packed = await client.get("/viser/lab/", headers={"Accept-Encoding": "gzip"})
             again = await client.get(
@@ -142,7 +148,7 @@ def test_browser_is_notified_when_viser_ends() -> None:
                 await receive_until(browser, lambda _: False)
             assert closed.value.rcvd is not None
             assert closed.value.rcvd.code == 1001
-        async with httpx.AsyncClient(base_url=lab.http, trust_env=False) as client:
+        async with open_client(lab) as client:
             assert (await client.get("/viser/lab/")).status_code == 503
 
     run_in_lab(check)

@@ -21,6 +21,7 @@ from svsa_server.scene.scenes import Scenes
 from svsa_server.scene.viser_proxy import ViserProxy
 from svsa_server.sessions.laboratory import Laboratory, build_shared_session
 from tests.server.scene.poses import make_pose
+from tests.waiting import PATIENCE_S
 
 SUBPROTOCOL = websockets.Subprotocol(f"viser-v{viser.__version__}")
 LINK = "/a/l"
@@ -65,6 +66,7 @@ class Lab:
             compression=None,
             proxy=None,
             max_size=None,
+            open_timeout=PATIENCE_S,
         )
 
 
@@ -98,7 +100,7 @@ async def running_lab() -> AsyncIterator[Lab]:
 
 def run_in_lab(check: Callable[[Lab], Any]) -> None:
     async def run() -> None:
-        async with asyncio.timeout(20.0), running_lab() as lab:
+        async with asyncio.timeout(PATIENCE_S), running_lab() as lab:
             await check(lab)
 
     asyncio.run(run())
