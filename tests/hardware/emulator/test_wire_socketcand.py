@@ -1,7 +1,10 @@
 """The socketcand server: its handshake, streams split anywhere, and invalid text."""
 
+import fcntl
 import select
 import socket
+import termios
+import time
 
 import pytest
 from hypothesis import HealthCheck, given, settings
@@ -16,8 +19,15 @@ from .wire_frames import FRAMES, GREETING
 HANG_S = 30.0
 
 
+LEFT = b"(left)"
+"""In place of text after the end of the connection."""
+
+
 class Peer:
-    """A raw socketcand client and its server, both in this thread."""
+    """A raw socketcand client and its server, both in this thread.
+
+    The system carries the text in its own time.
+    """
 
     def __init__(self, server):
         self.server = server
@@ -30,11 +40,22 @@ class Peer:
         self.pump()
 
     def pump(self):
-        while select.select(self.server.sources(), [], [], 0.005)[0]:
+        latest = time.monotonic() + HANG_S
+        while select.select(self.server.sources(), [], [], 0.001)[0] or not self.is_delivered():
+            assert time.monotonic() < latest
             self.frames += [frame for _, frame in self.server.poll()]
 
+    def is_delivered(self):
+        """Whether the server's end of the connection has received all text."""
+        try:
+            self.socket.getpeername()
+        except OSError:  # the server has closed it
+            return True
+        waiting = fcntl.ioctl(self.socket, termios.TIOCOUTQ, bytes(4))
+        return not any(waiting)
+
     def read(self):
-        """Return the received text."""
+        """Return the text that has arrived."""
         self.server.flush()
         text = b""
         while select.select([self.socket], [], [], 0.01)[0]:
@@ -43,17 +64,25 @@ class Peer:
             except ConnectionError:
                 chunk = b""
             if not chunk:
-                return text + b"(left)"
+                return text + LEFT
             text += chunk
         return text
 
+    def read_until(self, end):
+        """Return the text that arrives until this end."""
+        text, latest = b"", time.monotonic() + HANG_S
+        while not text.endswith(end):
+            assert time.monotonic() < latest, text
+            self.pump()
+            text += self.read()
+        return text
+
     def enter(self):
-        self.pump()
-        assert self.read() == b"< hi >"
+        assert self.read_until(b">") == b"< hi >"
         self.write(b"< open emulator >")
-        assert self.read() == b"< ok >"
+        assert self.read_until(b">") == b"< ok >"
         self.write(b"< rawmode >")
-        assert self.read() == b"< ok >"
+        assert self.read_until(b">") == b"< ok >"
         return self
 
 
@@ -77,7 +106,7 @@ def test_client_receives_no_frame_before_the_handshake(server, monkeypatch):
     assert server.take_arrivals() == []
     assert server.wait_s() is None
     server.send(FRAMES[0], 0.5)
-    assert peer.read() == b"< frame 013 0.500000 138803E855555555 >"
+    assert peer.read_until(b">") == b"< frame 013 0.500000 138803E855555555 >"
 
 
 def test_listening_client_receives_frames_after_a_delay(server, monkeypatch):
@@ -88,7 +117,8 @@ def test_listening_client_receives_frames_after_a_delay(server, monkeypatch):
     server.send(GREETING, 12.0, to=client)
     server.send(Frame(0x20, b"", error=True), 13.0)
     server.send(FRAMES[0], 14.0, but=client)
-    assert peer.read() == (b"< frame 1FFF0002 12.000000 454D554C41544544 >< error 020 13.000000 >")
+    expected = b"< frame 1FFF0002 12.000000 454D554C41544544 >< error 020 13.000000 >"
+    assert peer.read_until(expected) == expected
 
 
 @pytest.mark.parametrize(
@@ -115,7 +145,7 @@ def test_listening_client_receives_frames_after_a_delay(server, monkeypatch):
 def test_invalid_text_is_no_frame(server, text, answer):
     peer = Peer(server).enter()
     peer.write(text)
-    assert peer.read() == answer
+    assert (peer.read_until(answer) if answer else peer.read()) == answer
     assert peer.frames == []
     peer.write(b"< send 00000123 1 A >")
     assert peer.frames == [Frame(0x123, b"\x0a", extended=True)]
@@ -123,9 +153,8 @@ def test_invalid_text_is_no_frame(server, text, answer):
 
 def test_client_sends_no_frame_before_rawmode(server):
     peer = Peer(server)
-    peer.pump()
     peer.write(b"< send 123 1 A >")
-    assert peer.read() == b"< hi >< error unknown command >"
+    assert peer.read_until(b"command >") == b"< hi >< error unknown command >"
     assert peer.frames == []
 
 
@@ -188,7 +217,7 @@ def test_unterminated_tag_is_limited(server, unit):
     peer = Peer(server).enter()
     peer.write(b"<" + unit * (70_000 // len(unit)))
     peer.write(unit * (70_000 // len(unit)))
-    assert peer.read() == b"(left)"
+    assert peer.read_until(LEFT) == LEFT
     assert len(server.sources()) == 1
 
 
@@ -208,8 +237,10 @@ def test_client_that_does_not_read_is_dropped_and_others_are_not(server, monkeyp
             server.poll()
             text += well.read()
         assert said < 2_000_000
-    server.poll()
-    text += well.read()
+    latest = time.monotonic() + HANG_S
+    while text.count(b"< frame 013 ") < said and time.monotonic() < latest:
+        server.poll()
+        text += well.read()
     assert server.listening == 1
     assert text.count(b"< frame 013 ") == said
 
@@ -223,11 +254,8 @@ def test_burst_reaches_a_late_reader(server):
     for number in range(count):
         server.send(Frame(0x700, number.to_bytes(8, "big")), 0.001 * number)
     assert server.wait_s() is not None
-    text = b""
-    while server.wait_s() is not None:
-        text += peer.read()
-        server.poll()
-    text += peer.read()
+    text = peer.read_until(b"%016X >" % (count - 1))
+    assert server.wait_s() is None
     said = [int(tag.split()[4], 16) for tag in text.decode().split(">")[:-1]]
     assert said == list(range(count))
 
@@ -236,8 +264,8 @@ def test_clients_above_the_limit_are_rejected(server, monkeypatch):
     monkeypatch.setattr(socketcand, "MAX_CLIENTS", 2)
     peers = [Peer(server).enter() for _ in range(2)]
     turned_away = Peer(server)
-    turned_away.pump()
-    assert turned_away.read() == b"(left)"
+    assert turned_away.read_until(LEFT) == LEFT
     peers[0].socket.close()
-    peers[1].pump()
+    while len(server.sources()) > 2:
+        peers[1].pump()
     Peer(server).enter()
