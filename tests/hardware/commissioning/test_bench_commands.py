@@ -54,7 +54,7 @@ def test_commands_run_over_a_socket_in_real_time(tmp_path):
         assert "run `svsa bench-check --move`" in " ".join(homed.output.split())
         checked = CliRunner().invoke(APP, ["bench-check", str(path), "--move"], input="y\ny\ny\n")
         path.write_text(path.read_text("utf-8").replace("= 8000", "= 2000"), "utf-8")
-        time.sleep(0.6)  # A drive does not respond for half a second after a reset.
+        time.sleep(1.5)  # A drive does not respond for half a second after a reset.
         wrong = CliRunner().invoke(APP, ["bench-check", str(path), "--move"], input="y\ny\ny\n")
         drives = emulator.control.read_state()["drives"]
     assert "motor2: scale" in checked.output, checked.output

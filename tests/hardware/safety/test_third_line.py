@@ -13,7 +13,7 @@ from svsa.hardware.file import read_bench
 from svsa.hardware.realtime.loss import find_loss
 from svsa.hardware.safety import third_line
 from svsa.hardware.safety.heartbeat import Heartbeats
-from svsa.hardware.safety.third_line import ThirdLine
+from svsa.hardware.safety.third_line import LOOKS, ThirdLine
 from tests.hardware.wired_bench import EMULATOR_BENCH
 from tests.waiting import wait_until
 
@@ -90,18 +90,21 @@ def watched(monkeypatch: pytest.MonkeyPatch) -> Iterator[Watched]:
 
 
 def test_third_line_is_passive_while_one_process_is_left_or_none_has_started(
-    watched: Watched,
+    watched: Watched, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     watched.loop.kill()
     watched.supervisor.kill()
     time.sleep(0.1)
     assert watched.line.intervention is None, "a loop that has not begun is not missed"
     watched.supervisor.returncode = None
-    watched.beats.beat("loop")
-    end = time.monotonic() + 0.3
-    while time.monotonic() < end:
-        watched.beats.beat("supervisor")
-        time.sleep(0.005)
+    ages_s, looks = {"loop": 10.0, "supervisor": 0.0}, list[str]()
+
+    def look(slot: str) -> float:
+        looks.append(slot)
+        return ages_s[slot]
+
+    monkeypatch.setattr(watched.beats, "age_s", look)
+    wait_until(lambda: looks.count("supervisor") > 2 * LOOKS)
     assert watched.line.intervention is None
     assert watched.bus.sent == []
 
@@ -160,9 +163,10 @@ def test_loop_that_ended_regularly_is_lost_and_leaves_nothing(watched: Watched) 
 def test_blocked_opening_of_the_bus_is_not_waited_for(
     watched: Watched, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    released = threading.Event()
+    opening, released = threading.Event(), threading.Event()
 
     def open_later(_: Any) -> Bus:
+        opening.set()
         released.wait(PATIENCE_S)
         return watched.bus
 
@@ -171,7 +175,7 @@ def test_blocked_opening_of_the_bus_is_not_waited_for(
     watched.beats.beat("loop")
     watched.loop.kill()
     watched.supervisor.kill()
-    time.sleep(0.3)
+    assert opening.wait(PATIENCE_S)
     watched.line.stop()
     assert watched.line._thread.is_alive()
     released.set()
