@@ -5,6 +5,7 @@ from typing import Any
 
 import svsa.cli
 from svsa.hardware.session.session import BenchSession
+from svsa.inputs.data_folder import find_data_folder
 from svsa.runs.session.simulated import SimulatedSession
 
 BLOCKING, BLOCKING_WAKE = 0.123, 0.124
@@ -12,16 +13,20 @@ BLOCKING, BLOCKING_WAKE = 0.123, 0.124
 its next wake-up on. Python code that computes holds the interpreter lock, which delays the threads
 that answer: one test computes, the others wait.
 """
+BLOCKED = "blocked"
+"""The file in the data folder that exists as soon as the sessions block."""
 PROGRAM = "from tests.server.blocked_lab import main; main()"
 
 
 def block(session: Any, number: float) -> None:
     if number == BLOCKING:
+        (find_data_folder() / BLOCKED).touch()
         threading.Event().wait()
     SimulatedSession.wake = BenchSession.wake = compute
 
 
 def compute(session: Any, now_s: float) -> None:
+    (find_data_folder() / BLOCKED).touch()
     while True:
         pass
 

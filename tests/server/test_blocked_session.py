@@ -15,7 +15,7 @@ from svsa_server.responsive import SILENT_S
 from tests.hardware.live_bench import start_live_emulator, write_bench
 from tests.hardware.safety.survivors import LOAD
 from tests.lab import END_TIMEOUT_S, PATIENCE_S, Lab, run_lab
-from tests.server.blocked_lab import BLOCKING, BLOCKING_WAKE, PROGRAM
+from tests.server.blocked_lab import BLOCKED, BLOCKING, BLOCKING_WAKE, PROGRAM
 from tests.server.sessions.bench_lab import BenchLab
 from tests.waiting import wait_until
 
@@ -33,6 +33,8 @@ def blocked(lab: Lab, factor: float = BLOCKING) -> Iterator[list[httpx.Response]
 
     thread = threading.Thread(target=ask)
     thread.start()
+    # Without the file, a busy machine could delay the sessions as long before they block.
+    wait_until((lab.data / BLOCKED).exists)
     wait_until(lambda: lab.client.get("/api/v1/health").json()["sessions_silent_s"] > 0.0)
     yield answers
     thread.join(PATIENCE_S)

@@ -16,7 +16,7 @@ from svsa_server.problems import TYPE_PREFIX
 from tests.lab import Lab
 from tests.lab_in_process import run_lab_in_process
 from tests.server.jobs.done_by_workers import end, get_process, note_and_sleep, refuse, wait_for
-from tests.waiting import wait_until
+from tests.waiting import follow_recording, wait_until
 
 
 @pytest.fixture
@@ -118,10 +118,7 @@ def record(lab: Lab, seconds: int) -> str:
     lab.jump(seconds)
     lab.client.delete(lab.session + "/recording").raise_for_status()
     run_id = began["recording"]["run_id"]
-    for _ in range(300):
-        if lab.client.get(f"/api/v1/runs/{run_id}").json()["state"] == "complete":
-            break
-        time.sleep(0.1)
+    follow_recording(lab.client, f"/api/v1/runs/{run_id}")
     return run_id
 
 

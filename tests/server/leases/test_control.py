@@ -27,7 +27,7 @@ from svsa_server.leases.lease import (
 from svsa_server.problems import TYPE_PREFIX
 from svsa_server.routes.depends import find_session
 from svsa_server.sessions.hosted import HostedSession
-from tests.lab import Lab
+from tests.lab import PATIENCE_S, Lab
 
 ADA, BOB = {"SVSA-Client": "0123-ada"}, {"SVSA-Client": "4567-bob"}
 SESSION = "/api/v1/sessions/lab"
@@ -136,8 +136,9 @@ def test_server_releases_control_of_an_absent_holder() -> None:
         async with open_app() as client:
             laboratory = client.app.state.laboratory  # type: ignore[attr-defined]
             version = laboratory.sessions["lab"].version
+            before = time.monotonic()
             await client.put(CONTROL, json={"by": "Ada"}, headers=ADA)
-            laboratory.free_leases(time.monotonic() + 14.0)
+            laboratory.free_leases(before + 14.0)
             assert laboratory.sessions["lab"].lease.is_held_by("0123-ada")
             laboratory.free_leases(time.monotonic() + 16.0)
             assert (await client.get(SESSION)).json()["control"]["holder"] is None
@@ -169,7 +170,7 @@ def test_invalid_name_is_rejected_with_its_bound(
 def test_stream_reports_holder_and_number_of_viewers_immediately(lab: Lab) -> None:
     address = lab.stream_url + "?client=0123-ada&rate_hz=1"
     with connect(address, proxy=None) as ada, connect(lab.stream_url, proxy=None) as other:
-        assert json.loads(other.recv(timeout=10))["state"]["control"]["watching"] >= 2
+        assert json.loads(other.recv(timeout=PATIENCE_S))["state"]["control"]["watching"] >= 2
         lab.client.put(CONTROL, json={"by": "Ada"}, headers=ADA).raise_for_status()
         assert wait_for_holder(ada, "Ada")["mine"] is True
         assert wait_for_holder(other, "Ada")["mine"] is False
@@ -178,9 +179,9 @@ def test_stream_reports_holder_and_number_of_viewers_immediately(lab: Lab) -> No
 
 
 def wait_for_holder(stream: object, name: str | None) -> dict:
-    end = time.monotonic() + 10
+    end = time.monotonic() + PATIENCE_S
     while time.monotonic() < end:
-        message = stream.recv(timeout=10)  # type: ignore[attr-defined]
+        message = stream.recv(timeout=PATIENCE_S)  # type: ignore[attr-defined]
         control = json.loads(message)["state"].get("control") if isinstance(message, str) else None
         if control and control["holder"] == name:
             return control

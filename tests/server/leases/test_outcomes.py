@@ -2,7 +2,6 @@
 
 import asyncio
 import socket
-import time
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from urllib.parse import urlsplit
@@ -21,16 +20,12 @@ from svsa_server.leases.outcomes import (
     Outcomes,
 )
 from tests.lab import Lab
+from tests.waiting import follow, wait_until
 
 
 def read_outcome(lab: Lab, name: str) -> dict:
     """Read the outcome after the request has ended."""
-    for _ in range(100):
-        found = lab.client.get(f"/api/v1/requests/{name}").raise_for_status().json()
-        if found["outcome"] != "pending":
-            return found
-        time.sleep(0.05)
-    return found
+    return follow(lab.client, f"/api/v1/requests/{name}", lambda one: one["outcome"] != "pending")
 
 
 def test_request_of_a_disconnected_client_is_reported_as_carried_out(lab: Lab) -> None:
@@ -43,9 +38,8 @@ def test_request_of_a_disconnected_client_is_reported_as_carried_out(lab: Lab) -
             "Idempotency-Key: left-early\r\nContent-Length: 0\r\n\r\n".encode()
         )
         connection.shutdown(socket.SHUT_RDWR)
+    wait_until(lambda: read_outcome(lab, "left-early")["outcome"] != "unknown")
     found = read_outcome(lab, "left-early")
-    while found["outcome"] == "unknown":
-        found = read_outcome(lab, "left-early")
     assert (found["outcome"], found["status"]) == ("carried_out", 200)
     assert lab.read()["status"] == "running"
 

@@ -1,7 +1,6 @@
 """Launches from a learning platform: the resulting users and roles, and rejections."""
 
 import re
-import time
 from html import unescape
 
 import pytest
@@ -18,6 +17,7 @@ from tests.server.lti.platform import (
     read_query,
     run_platform,
 )
+from tests.waiting import wait_until
 
 
 @pytest.fixture(scope="module")
@@ -120,10 +120,9 @@ def test_learner_is_the_same_student_at_the_exercise_each_time(launcher, data):
     launcher.client.cookies.clear()
     launcher.launch(sub="user-43", name="Bo")
     assert launcher.read_access()["id"] != first["id"]
-    for _ in range(500):
-        if noted := [one for one in read_audit(data, "lti launch") if one["name"] == "Ada"]:
-            break
-        time.sleep(0.02)
+    noted = wait_until(
+        lambda: [one for one in read_audit(data, "lti launch") if one["name"] == "Ada"]
+    )
     assert {one["person"] for one in noted} == {first["id"]}
 
 

@@ -12,11 +12,15 @@ import pytest
 from tests.lab import Lab, run_lab
 from tests.lab_in_process import run_lab_in_process
 from tests.runs.records.test_recorder import mount_small_disk
-from tests.waiting import follow, follow_recording
+from tests.waiting import follow, follow_recording, wait_until
 
 
 def record(lab: Lab, seconds: float = 3.0, **wanted: object) -> str:
-    """Record the shared session for some session time with a load in it; return the run's path."""
+    """Record the shared session for some session time with a load in it; return the run's path.
+
+    It is paused, so that the changes are in the first tick.
+    """
+    lab.client.post(lab.session + "/pause").raise_for_status()
     answer = lab.client.post(lab.session + "/recording", json=wanted)
     assert answer.status_code == 201, answer.text
     state = answer.json()
@@ -115,16 +119,10 @@ def test_full_disk_is_reported_in_the_state_while_control_continues(tmp_path: Pa
     ):
         lab.client.put(lab.session + "/speed", json={"speed": 20}).raise_for_status()
         lab.client.post(lab.session + "/recording", json={}).raise_for_status()
-        for _ in range(300):
-            state = lab.read()
-            if state["recording"]["state"] == "failed":
-                break
-            time.sleep(0.1)
-        assert state["recording"]["state"] == "failed"
+        state = follow(lab.client, lab.session, lambda one: one["recording"]["state"] == "failed")
         assert "No space left" in state["recording"]["message"]
         assert state["status"] == "running"
-        time.sleep(0.2)
-        assert lab.read()["tick"] > state["tick"]
+        wait_until(lambda: lab.read()["tick"] > state["tick"])
 
 
 def test_unwritable_folder_does_not_stop_control(tmp_path: Path) -> None:

@@ -1,6 +1,5 @@
 """The origin of a run and the metrics of a segment over REST, for the scripts of the page."""
 
-import time
 from pathlib import Path
 
 import pytest
@@ -28,11 +27,8 @@ def record(lab: Lab) -> tuple[str, dict]:
     lab.client.delete(lab.session + "/recording").raise_for_status()
     lab.client.put(lab.session + "/lanes", json={"comparisons": []}).raise_for_status()
     run = recording["recording"]["run_id"]
-    for _ in range(100):
-        if lab.client.get(f"/api/v1/runs/{run}").json()["state"] == "complete":
-            return run, origin
-        time.sleep(0.1)
-    raise AssertionError(f"run {run} was not finished")
+    follow_recording(lab.client, f"/api/v1/runs/{run}")
+    return run, origin
 
 
 def test_origin_of_a_recorded_run_is_that_of_its_session(lab: Lab) -> None:
