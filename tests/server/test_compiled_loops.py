@@ -12,10 +12,11 @@ from tests.lab import run_lab
 
 def test_actuator_is_compiled_in_a_process_while_other_requests_are_served(monkeypatch, tmp_path):
     """Two requests start it once; the event loop is free meanwhile."""
-    started = tmp_path / "started"
+    started, ended = tmp_path / "started", tmp_path / "ended"
     program = (
-        f"import sys, time; open({str(started)!r}, 'a').write(str(sys.argv[1:]) + ';');"
-        "time.sleep(0.5)"
+        "import pathlib, sys, time\n"
+        f"with open({str(started)!r}, 'a') as file: file.write(str(sys.argv[1:]) + ';')\n"
+        f"while not pathlib.Path({str(ended)!r}).exists(): time.sleep(0.01)"
     )
 
     def is_compiled(control, kind=""):
@@ -32,8 +33,11 @@ def test_actuator_is_compiled_in_a_process_while_other_requests_are_served(monke
         waited = []
         while not all(request.done() for request in requests):
             await asyncio.sleep(0.01)
-            waited.append(compiled_loops.find_compiling_s())
-        return [one for one in waited if one is not None]
+            if (compiling_s := compiled_loops.find_compiling_s()) is not None:
+                waited.append(compiling_s)
+            if len(waited) > 10:
+                ended.touch()
+        return waited
 
     assert compiled_loops.find_compiling_s() is None
     waited = asyncio.run(compile_twice())

@@ -1,7 +1,7 @@
 """A bench session in this process, whose loop is a script: no process, no bus, no waiting."""
 
 import types
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import asdict
 from typing import Any
 
@@ -29,11 +29,11 @@ STEP = "compiling the loop, once: 3 functions, observe the last"
 class Processes:
     """Loop and supervisor: `script` says how they start, and every command takes a while.
 
-    script: `ready_s`, the time until `wait_until_ready` returns, s; `refusal`, the reason if it
-    does not.
+    script: `is_ready`, which `wait_until_ready` waits for; `refusal`, the reason if the bench
+    cannot be opened.
     """
 
-    script = types.SimpleNamespace(ready_s=0.0, refusal=None)
+    script = types.SimpleNamespace(is_ready=lambda: True, refusal=None)
 
     def __init__(self, *_: Any) -> None:
         self.memory, self.beats = LoopMemory.create(), Heartbeats.create()
@@ -46,7 +46,8 @@ class Processes:
 
     def wait_until_ready(self, silence_s: float, notify: Any) -> None:
         notify(self.step, self.age_s)
-        pause(self.script.ready_s)
+        while not self.script.is_ready():
+            pause(ANSWER_S)
         if self.script.refusal is not None:
             self.failure = f"The bench cannot be opened: {self.script.refusal}"
             raise BenchError(self.failure)
@@ -70,10 +71,12 @@ class Processes:
 
 
 def build_bench_session(
-    monkeypatch: pytest.MonkeyPatch, ready_s: float = 0.0, refusal: str | None = None
+    monkeypatch: pytest.MonkeyPatch,
+    is_ready: Callable[[], bool] = lambda: True,
+    refusal: str | None = None,
 ) -> BenchSession:
     """A session of the rig's bench file that is not open yet."""
-    script = types.SimpleNamespace(ready_s=ready_s, refusal=refusal)
+    script = types.SimpleNamespace(is_ready=is_ready, refusal=refusal)
     monkeypatch.setattr(Processes, "script", script)
     monkeypatch.setattr(supervised_loop, "BenchProcesses", Processes)
     figure = get_figure("4a").build_configuration(load=False)

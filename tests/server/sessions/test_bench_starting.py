@@ -70,9 +70,9 @@ def test_state_of_a_starting_bench_is_complete(starting: BenchSession) -> None:
 def test_lab_runs_and_the_console_reports_progress_during_the_start(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    session = build_bench_session(monkeypatch, ready_s=0.05)
+    seen: list[bool] = []
+    session = build_bench_session(monkeypatch, is_ready=lambda: len(seen) > 2)
     console = Console(file=io.StringIO(), width=200)
-    seen = []
 
     async def serve() -> None:
         opening = asyncio.create_task(open_bench(session, console))
