@@ -12,7 +12,7 @@ from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
 from svsa.cli import main
-from tests.lab import Lab, run_lab
+from tests.lab import END_TIMEOUT_S, PATIENCE_S, Lab, run_lab
 
 SECRET = "correct horse battery"
 
@@ -21,6 +21,11 @@ SECRET = "correct horse battery"
 def guarded_lab() -> Iterator[Lab]:
     with run_lab(secret=SECRET) as lab:
         yield lab
+
+
+def open_browser(lab: Lab) -> httpx.Client:
+    """Return a client without the secret."""
+    return httpx.Client(base_url=lab.url, timeout=PATIENCE_S, trust_env=False)
 
 
 def refuse(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture, *arguments: str) -> str:
@@ -64,7 +69,7 @@ def test_foreign_name_of_this_machine_is_rejected(lab: Lab) -> None:
 
 @pytest.mark.parametrize("path", ["/api/v1/sessions", "/docs", "/openapi.json", "/viser/lab/"])
 def test_only_the_empty_page_is_visible_without_the_secret(guarded_lab: Lab, path: str) -> None:
-    answer = httpx.get(guarded_lab.url + path, trust_env=False)
+    answer = httpx.get(guarded_lab.url + path, timeout=PATIENCE_S, trust_env=False)
     assert answer.status_code == 401
     assert "secret" in answer.json()["detail"]
 
@@ -81,10 +86,11 @@ def test_scripts_use_a_bearer_token(guarded_lab: Lab) -> None:
     assert guarded_lab.read()["status"] == "running"
     headers = {"Authorization": f"Bearer {SECRET}"}
     with connect(guarded_lab.stream_url, additional_headers=headers, proxy=None) as stream:
-        assert "hello" in str(stream.recv(timeout=10))
+        assert "hello" in str(stream.recv(timeout=PATIENCE_S))
     wrong = httpx.get(
         guarded_lab.url + "/api/v1/sessions",
         headers={"Authorization": "Bearer wrong"},
+        timeout=PATIENCE_S,
         trust_env=False,
     )
     assert wrong.status_code == 401
@@ -92,7 +98,7 @@ def test_scripts_use_a_bearer_token(guarded_lab: Lab) -> None:
 
 def test_simulation_is_stopped_only_by_callers_with_the_secret(guarded_lab: Lab) -> None:
     """`test_all_users_may_stop_a_bench` shows the bench."""
-    stranger = httpx.Client(base_url=guarded_lab.url, trust_env=False)
+    stranger = open_browser(guarded_lab)
     elsewhere = {"Origin": "http://elsewhere.example"}
     stop = "/api/v1/quick-stop"
     assert stranger.post(stop, headers=elsewhere).status_code == 403
@@ -105,7 +111,7 @@ def test_simulation_is_stopped_only_by_callers_with_the_secret(guarded_lab: Lab)
 
 
 def test_browser_logs_in_once_and_keeps_a_cookie(guarded_lab: Lab) -> None:
-    with httpx.Client(base_url=guarded_lab.url, trust_env=False) as browser:
+    with open_browser(guarded_lab) as browser:
         wrong = browser.post("/api/v1/login", json={"secret": "guess"})
         assert wrong.status_code == 401
         assert "not the secret" in wrong.json()["detail"]
@@ -120,15 +126,15 @@ def test_browser_logs_in_once_and_keeps_a_cookie(guarded_lab: Lab) -> None:
         with connect(
             guarded_lab.stream_url, additional_headers={"Cookie": f"{name}={value}"}, proxy=None
         ) as stream:
-            assert "hello" in str(stream.recv(timeout=10))
+            assert "hello" in str(stream.recv(timeout=PATIENCE_S))
 
 
 @pytest.mark.exhaustive  # Every lab of the tests is ended by Ctrl-C, which tests that signal.
 def test_service_manager_ends_the_lab_quickly_with_a_connected_client() -> None:
     with run_lab() as lab, connect(lab.stream_url, proxy=None) as stream:
-        assert "hello" in str(stream.recv(timeout=10))
+        assert "hello" in str(stream.recv(timeout=PATIENCE_S))
         lab.process.terminate()
-        assert lab.process.wait(15) in (0, -signal.SIGTERM)
+        assert lab.process.wait(END_TIMEOUT_S) in (0, -signal.SIGTERM)
 
 
 def test_open_lab_has_neither_class_nor_users(lab) -> None:

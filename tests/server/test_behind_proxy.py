@@ -19,7 +19,7 @@ from websockets.sync.client import connect
 
 import svsa
 from svsa_server.access.class_keys import ClassKeys, ShownOnce
-from tests.lab import run_lab
+from tests.lab import END_TIMEOUT_S, PATIENCE_S, run_lab
 
 pytestmark = pytest.mark.exhaustive
 """`access/test_below_a_path` tests the path in the answers of the lab."""
@@ -39,12 +39,18 @@ class Proxied(NamedTuple):
 
     def open_browser(self) -> httpx.Client:
         """Return the browser of a user who has not joined yet."""
-        return httpx.Client(base_url=self.url + ROOT, verify=self.trust, trust_env=False)
+        return httpx.Client(
+            base_url=self.url + ROOT, verify=self.trust, timeout=PATIENCE_S, trust_env=False
+        )
 
 
-def find_free_port() -> int:
-    with socket.create_server(("127.0.0.1", 0)) as taken:
-        return taken.getsockname()[1]
+@contextlib.contextmanager
+def reserve_port() -> Iterator[int]:
+    """Yield a free port that no other process gets, except one that shares it, as Caddy does."""
+    with socket.socket() as reserved:
+        reserved.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEPORT, 1)
+        reserved.bind(("127.0.0.1", 0))
+        yield reserved.getsockname()[1]
 
 
 def find_caddy() -> str | None:
@@ -75,7 +81,7 @@ def run_caddy(folder: Path, port: int, lab_port: str) -> Iterator[ssl.SSLContext
         yield wait_for_trust(folder / CERTIFICATE, port)
     finally:
         process.terminate()
-        process.wait(15)
+        process.wait(END_TIMEOUT_S)
 
 
 def wait_for_trust(root: Path, port: int) -> ssl.SSLContext:
@@ -97,8 +103,8 @@ def run_proxied(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Proxied]:
     data, folder = tmp_path_factory.mktemp("class"), tmp_path_factory.mktemp("caddy")
     _, reported = ClassKeys.open(data)
     assert reported is not None
-    port = find_free_port()
     with (
+        reserve_port() as port,
         run_lab("--class", "--root-path", ROOT, data=str(data)) as lab,
         run_caddy(folder, port, lab.url.rpartition(":")[2]) as trust,
     ):
@@ -162,9 +168,9 @@ def test_streams_and_3d_view_pass_the_proxy(proxied: Proxied) -> None:
     assert refused.value.response.status_code == 401
     headers = {"Cookie": cookie, "Origin": proxied.url}
     with connect(address, additional_headers=headers, **options) as stream:
-        assert json.loads(stream.recv(timeout=10))["type"] == "hello"
-        assert any(isinstance(stream.recv(timeout=10), bytes) for _ in range(5))
-    view = instructor.get("/viser/lab/", timeout=60)
+        assert json.loads(stream.recv(timeout=PATIENCE_S))["type"] == "hello"
+        assert any(isinstance(stream.recv(timeout=PATIENCE_S), bytes) for _ in range(5))
+    view = instructor.get("/viser/lab/")
     assert (view.status_code, "hasFocus" in view.text) == (200, True)
     instructor.close()
 

@@ -10,7 +10,7 @@ from websockets.sync.client import connect
 from svsa.runs.session.frame import HEADER, HEADER_FIELDS
 from svsa_server.app import build_app
 from svsa_server.config import Settings
-from tests.lab import Lab
+from tests.lab import PATIENCE_S, Lab
 from tests.server.schema import SCHEMA
 
 STREAM = "/api/v1/sessions/{session}/stream"
@@ -120,7 +120,7 @@ def test_plain_get_of_the_stream_reports_that_it_is_a_websocket(lab: Lab) -> Non
     assert answer.headers["upgrade"] == "websocket"
     assert "WebSocket" in answer.json()["detail"]
     with connect(lab.stream_url, proxy=None, max_size=None) as stream:
-        assert stream.recv(timeout=10).startswith('{"type":"hello"')
+        assert stream.recv(timeout=PATIENCE_S).startswith('{"type":"hello"')
 
 
 @pytest.mark.parametrize(

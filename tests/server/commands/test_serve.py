@@ -14,7 +14,7 @@ import uvicorn
 from svsa.errors import ParameterError, StateError
 from svsa_server.commands.serve import AnnouncedServer, bind, claim_data_folder
 from svsa_server.config import Settings
-from tests.lab import run_lab
+from tests.lab import START_TIMEOUT_S, run_lab
 
 
 @pytest.mark.parametrize("path", ["svsa", "/svsa/", "/a b", "//", "/ä"])
@@ -90,7 +90,9 @@ def test_missing_shared_memory_is_reported_at_the_start() -> None:
     shared = str(Path("/dev") / "shm")
     before = ["bwrap", "--dev-bind", "/", "/", "--ro-bind", shared, shared]
     command = [*before, str(Path(sys.executable).with_name("svsa")), "serve", "--port", "0"]
-    ran = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
+    ran = subprocess.run(
+        command, capture_output=True, text=True, timeout=START_TIMEOUT_S, check=False
+    )
     assert ran.returncode != 0
     reported = " ".join((ran.stdout + ran.stderr).split())
     assert "A block of shared memory of 1 bytes cannot be created" in reported

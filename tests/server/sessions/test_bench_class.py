@@ -24,7 +24,7 @@ from tests.client.copied_script import (
 )
 from tests.exhaustive import exhaust
 from tests.hardware.live_bench import start_live_emulator, write_bench
-from tests.lab import run_lab
+from tests.lab import PATIENCE_S, run_lab
 from tests.lab_in_process import run_lab_in_process
 from tests.server.sessions.bench_lab import BenchLab
 
@@ -154,7 +154,8 @@ def test_new_holder_starts_the_bench_again_once_it_is_at_rest(room: Room) -> Non
 def test_all_users_may_stop_a_bench(room: Room) -> None:
     """Stopping a machine needs no login; `test_access` shows that a simulation needs one."""
     room.bench.make_ready()
-    with httpx.Client(base_url=room.bench.lab.url, trust_env=False) as stranger:
+    url = room.bench.lab.url
+    with httpx.Client(base_url=url, timeout=PATIENCE_S, trust_env=False) as stranger:
         assert stranger.get("/api/v1/access").json()["stops_without_login"]
         assert stranger.post("/api/v1/quick-stop").status_code == 204
     room.bench.wait_for("fault")
