@@ -3,6 +3,7 @@
 from svsa.teaching.course.exercise import Exercise
 from svsa.teaching.course.steps import Experiment, Explain, Predict
 from tests.lab import Lab
+from tests.waiting import wait_until
 
 COURSE = "/api/v1/course"
 WAIT_TICKS = 10_000
@@ -50,11 +51,11 @@ class Student:
         return run_id
 
     def wait(self, run_id: str) -> None:
-        for _ in range(10_000):
+        def is_finished() -> bool:
             found = self.client.get(f"/api/v1/runs/{run_id}")
-            if found.is_success and found.json()["state"] != "recording":
-                return
-        raise AssertionError("the recording is never finished")
+            return found.is_success and found.json()["state"] != "recording"
+
+        wait_until(is_finished)
 
     def check(self, step: str, run: str):
         return self.client.post(f"{self.path}/steps/{step}/check", json={"run_id": run})

@@ -176,7 +176,7 @@ def test_attack_reveals_nothing_and_disturbs_no_user(theme, name, clue, secret):
     ("theme", "name"), [one for one in list_attacks() if one[1] in REAL], ids=lambda part: part
 )
 def test_attack_succeeds_without_confinement(theme, name, clue, secret):
-    outcome = attack(theme, name, clue, leave_open)
+    outcome = attack(theme, name, clue, leave_open, PATIENT)
     (Path(clue["folder"]) / "written").unlink(missing_ok=True)
     assert outcome.ended == "got", outcome
     assert secret in outcome.got or not name.startswith(GETTING)

@@ -183,7 +183,7 @@ def test_output_of_a_failed_law_is_described():
 def test_output_of_a_killed_law_is_kept():
     endless = b"def law(*given):\n    print('here')\n    while True: pass\n"
     with (
-        LawProcess(endless, MODEL, Bounds(answer_s=0.5)) as law,
+        LawProcess(endless, MODEL) as law,
         pytest.raises(LawFaultError, match="did not answer") as raised,
     ):
         law(0.0, *REPORTED)

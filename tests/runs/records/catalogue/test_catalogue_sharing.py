@@ -16,6 +16,7 @@ from svsa.runs.records.parquet import measure_bytes
 from svsa.runs.records.writer import write_record
 from tests.exhaustive import exhaust
 from tests.runs.records.records import add, build_header, build_samples
+from tests.waiting import PATIENCE_S
 
 
 def work(folder: str, first: int, failures: "multiprocessing.Queue[str]") -> None:
@@ -47,7 +48,7 @@ def test_processes_and_threads_share_a_folder(catalogue: Catalogue, hands: int) 
     for worker in (*processes, *threads):
         worker.start()
     for worker in (*processes, *threads):
-        worker.join(60)
+        worker.join(PATIENCE_S)
     assert failures.empty(), failures.get()
     page = catalogue.list(page_size=200)
     assert page.total == 2 * hands * 15
