@@ -62,10 +62,10 @@ def test_automatic_transfer_of_control_is_logged_with_reason_and_tick(tmp_path: 
     log = audit.AuditLog(tmp_path)
     lease = ControlQueue("lab", lambda client: client == "instructor", 90.0)
     hosted = HostedSession(session, lease=lease, log_ended_lease=partial(log_ended_lease, log))
-    begin = time.monotonic()
     for person in (ADA, BOB, EVE):
         hosted.take_control(person, False)
     session.step(7)
+    begin = time.monotonic()
     for later, here in ((91.0, (ADA, BOB, EVE)), (107.0, (BOB,)), (200.0, ())):
         for person in here:
             lease.hear(person.client, begin + later)
