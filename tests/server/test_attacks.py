@@ -28,8 +28,10 @@ from tests.benchmarks.attacks import (
 )
 from tests.lab import Lab
 
-GROWTH_MB = 100.0
-"""Memory that the allocator may keep after a peak."""
+GROWTH_MB, RECORDED_MB_PER_S = 100.0, 1.5
+"""Memory that the allocators may keep after a peak, of which the end of a recording has one. On a
+busy machine an attack takes minutes, all of which are recorded.
+"""
 
 
 @pytest.fixture(scope="module")
@@ -60,7 +62,7 @@ def unharmed(lab: Lab) -> Iterator[str]:
     assert run["first_tick"] <= first
     assert run["first_tick"] + run["ticks"] >= last
     assert run["state"] == "complete"
-    assert read_memory_mb(lab) < memory + GROWTH_MB
+    assert read_memory_mb(lab) < memory + GROWTH_MB + RECORDED_MB_PER_S * run["duration_s"]
     end = time.monotonic() + LONGEST_S
     while count_sockets(lab) > sockets + 2:
         assert time.monotonic() < end
