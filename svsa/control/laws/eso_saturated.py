@@ -55,7 +55,7 @@ class Observers(LawParameters):
         default=113.0,
     )  # fmt: skip
     saturation_rad_per_s: Number = quantity(
-        "rad/s", "κ: how fast what saturation took is forgotten", symbol="κ", ge=1, le=300,
+        "rad/s", "κ: decay rate of the saturation compensation", symbol="κ", ge=1, le=300,
         default=299.0,
     )  # fmt: skip
 

@@ -41,13 +41,13 @@ class Learning(LawParameters):
         "1", "γ: share of an error that is learned in a period", symbol="γ", ge=0, le=1, default=0.9
     )
     position_lead_s: Number = quantity(
-        "s", "How much later the position answers", symbol="t_q", ge=0, le=0.5, default=0.06
+        "s", "Delay of the response of the position", symbol="t_q", ge=0, le=0.5, default=0.06
     )
     stiffness_lead_s: Number = quantity(
-        "s", "How much later the stiffness answers", symbol="t_σ", ge=0, le=0.5, default=0.05
+        "s", "Delay of the response of the stiffness", symbol="t_σ", ge=0, le=0.5, default=0.05
     )
     smoothing: Number = quantity(
-        "1", "q: share of its neighbours in a point", symbol="q", ge=0, le=0.5, default=0.25
+        "1", "q: weight of the neighbours of a point", symbol="q", ge=0, le=0.5, default=0.25
     )
 
 

@@ -58,14 +58,19 @@ class Weights(LawParameters):
         "rad/s", "Error of the velocity", symbol="e_v", ge=1e-2, le=100, default=1.55
     )
     position_time_s: Number = quantity(
-        "s", "How long that error of the position is borne", symbol="t_q", ge=1e-3, le=10,
+        "s", "Tolerated duration of this position error", symbol="t_q", ge=1e-3, le=10,
         default=0.032,
     )  # fmt: skip
     stiffness_nm_per_rad: Number = quantity(
         "N·m/rad", "Error of the stiffness", symbol="e_σ", ge=1e-2, le=100, default=4.35
     )
     stiffness_time_s: Number = quantity(
-        "s", "How long that is borne", symbol="t_σ", ge=1e-3, le=10, default=0.252
+        "s",
+        "Tolerated duration of this stiffness error",
+        symbol="t_σ",
+        ge=1e-3,
+        le=10,
+        default=0.252,
     )
 
 

@@ -4,9 +4,9 @@ A fast loop has smaller errors under a load. It is harmful where it acts on enco
 noise, and where motors at their limits or a wrong model make it oscillate. The law measures which
 of these is the case:
 
-    s² ← s² + λ (min(|Δ²u|, 4 s₀)² − s²)          shaking,   Δ²u = u_k − 2u_{k−1} + u_{k−2}
+    s² ← s² + λ (min(|Δ²u|, 4 s₀)² − s²)          chattering, Δ²u = u_k − 2u_{k−1} + u_{k−2}
     ε ← ε + k (r − ε)                              r the residual of its observer
-    n² ← n² + λ (|ε − ε̄|² − n²)                    swinging, ε̄ the slow part of ε, below ω_n
+    n² ← n² + λ (|ε − ε̄|² − n²)                    oscillation, ε̄ the slow part of ε, below ω_n
     G rises at once to S²/(1 + S²),   S = |ε|²/(r₀² + c n²),   and falls back in t_G
 
 with λ = 1 − e^(−T/t_s), k = 1 − e^(−ω_r T). A new load makes S large, because |ε|² rises at once
@@ -17,11 +17,11 @@ at most at
     a = a_f + G (a₀ − a_f),   a_f = a_s + f (a₀ − a_s),      and both of the observer at
     ω = ω_f + G (ω₀ − ω_f),   ω_f = ω_s + f (ω_c − ω_s)
 
-Saturation, spring, lever and the governor of the stiffness are NDOBC-W's; the barrier on the
-deflection may be approached faster.
+Saturation, spring, lever and the governor of the stiffness are those of NDOBC-W; the barrier on
+the deflection may be approached faster.
 
-What it costs compared with NDOBC is listed with the results. No stability is proven: its poles
-depend on what it measures.
+The results compare its effort with that of NDOBC. No stability is proven, because its poles
+depend on measurements.
 """
 
 from typing import NamedTuple
@@ -50,7 +50,7 @@ class ScheduledPoles(YieldingPoles):
     """NDOBC-W's poles, calm and after a large residual, and their reduction under oscillation."""
 
     position_pole_rad_per_s: Number = quantity(
-        "rad/s", "a₀ of (s + a)⁴ in calm and at a surprise, no motor being at its limit",
+        "rad/s", "a₀ of (s + a)⁴ without saturation, chattering and oscillation",
         symbol="a₀", ge=20, le=200, default=123.0,
     )  # fmt: skip
     loud_pole_rad_per_s: Number = quantity(
@@ -62,18 +62,18 @@ class ScheduledPoles(YieldingPoles):
         default=50.9,
     )  # fmt: skip
     return_rad_per_s2: Number = quantity(
-        "rad/s²", "How fast a comes back", symbol="ȧ", ge=10, le=1e5, default=1160.0
+        "rad/s²", "Rate at which a returns", symbol="ȧ", ge=10, le=1e5, default=1160.0
     )
     stiffness_pole_rad_per_s: Number = quantity(
         "rad/s", "p of (s + p)² at a₀; it is reduced in proportion", symbol="p", ge=5, le=150,
         default=46.3,
     )  # fmt: skip
     observer_rad_per_s: Number = quantity(
-        "rad/s", "ω₀: both poles of its observer at a surprise", symbol="ω₀", ge=5, le=300,
+        "rad/s", "ω₀: both poles of its observer after a sudden load", symbol="ω₀", ge=5, le=300,
         default=122.0,
     )  # fmt: skip
     calm_observer_rad_per_s: Number = quantity(
-        "rad/s", "ω_c: both poles of its observer where nothing surprises it", symbol="ω_c", ge=5,
+        "rad/s", "ω_c: both observer poles otherwise, without chattering", symbol="ω_c", ge=5,
         le=300, default=20.6,
     )  # fmt: skip
     loud_observer_rad_per_s: Number = quantity(
@@ -81,23 +81,23 @@ class ScheduledPoles(YieldingPoles):
         default=5.43,
     )  # fmt: skip
     rate_share: Number = quantity(
-        "1", "Share of the load's estimated rate that is acted on", symbol="ρ", ge=0, le=1,
+        "1", "Share of the load's estimated rate that is compensated", symbol="ρ", ge=0, le=1,
         default=0.00529,
     )  # fmt: skip
     governed_share: Number = quantity(
-        "1", "Share of the limit of deflection from which on the spring is stiffened for a load",
+        "1", "Share of the deflection limit above which the spring is stiffened under a load",
         symbol="φ_g", ge=0.2, le=1, default=0.425,
     )  # fmt: skip
     torque_ratio: Number = quantity(
-        "1", "What may be wanted of the spring, over what it gives near its limit of deflection",
+        "1", "Limit of the elastic torque, relative to that near the deflection limit",
         symbol="κ", ge=1, le=10, default=1.83,
     )  # fmt: skip
     deflection_share: Number = quantity(
-        "1", "Share of the limit of deflection at which the barrier stands", symbol="b", ge=0.3,
+        "1", "Position of the barrier, as a share of the deflection limit", symbol="b", ge=0.3,
         le=0.99, default=0.772,
     )  # fmt: skip
     deflection_rad_per_s: Number = quantity(
-        "rad/s", "l: how fast the barrier may be approached", symbol="l", ge=10, le=300,
+        "rad/s", "l: largest rate of approach to the barrier", symbol="l", ge=10, le=300,
         default=81.0,
     )  # fmt: skip
     shaking_nm: Number = quantity(
@@ -121,21 +121,21 @@ class ScheduledPoles(YieldingPoles):
         default=2.0,
     )  # fmt: skip
     surprise_nm: Number = quantity(
-        "N·m", "r₀: residual at which it is half surprised after calm", symbol="r₀", ge=0.01,
+        "N·m", "r₀: residual at which G is 1/2 without oscillation", symbol="r₀", ge=0.01,
         le=20, default=0.166,
     )  # fmt: skip
     surprise_rad_per_s: Number = quantity(
-        "rad/s", "ω_r: how fast residuals are averaged", symbol="ω_r", ge=5, le=1000, default=131.0
+        "rad/s", "ω_r: bandwidth of the residual filter", symbol="ω_r", ge=5, le=1000, default=131.0
     )
     swing_rad_per_s: Number = quantity(
-        "rad/s", "ω_n: what is slower than this is a load that moves, and no swinging",
+        "rad/s", "ω_n: slower residuals count as a load, not as oscillation",
         symbol="ω_n", ge=0, le=1000, default=11.9,
     )  # fmt: skip
     swing_weight: Number = quantity(
-        "1", "c: weight of what swings anyway in r₀²", symbol="c", ge=0, le=1000, default=92.3
+        "1", "c: weight of n² in the threshold r₀² + c n²", symbol="c", ge=0, le=1000, default=92.3
     )
     release_s: Number = quantity(
-        "s", "t_G: how long a surprise lasts", symbol="t_G", ge=0.001, le=10, default=0.241
+        "s", "t_G: time constant of the decay of G", symbol="t_G", ge=0.001, le=10, default=0.241
     )
 
 
@@ -283,7 +283,7 @@ def detect_load(constants: Constants, memory: np.record, r: Disturbance) -> None
 
 @compiled
 def compute_poles(constants: Constants, memory: np.record) -> tuple[float, float]:
-    """a at most and ω, rad/s: between loud and calm by f = 1/(1 + l²), then to a₀, ω₀ by G."""
+    """Bound of a, and ω, rad/s: from a_s, ω_s to a₀, ω_c by f = 1/(1 + l²), then to a₀, ω₀ by G."""
     c, G = constants, memory.gate
     loudness = memory.shaking / (c.s0 * c.s0) + memory.swinging / (c.n0 * c.n0)
     f = 1.0 / (1.0 + loudness * loudness)

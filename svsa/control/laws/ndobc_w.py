@@ -5,15 +5,15 @@ with ŵ of an observer that estimates the rate of the load, and five measures ag
 
 1. While |u1| or |u2| is beyond its limit, a ← 0.96 a and p with it, down to a_min; afterwards a
    comes back at a bounded rate.
-2. The demanded elastic torque, ŵ2 − D q̇ − M(q̈_d + 2aė + a²e), is clipped at what the spring
-   can give near its limit of deflection.
+2. The demanded elastic torque, ŵ2 − D q̇ − M(q̈_d + 2aė + a²e), is limited to the torque of the
+   spring near its deflection limit.
 3. A barrier on φ, solved for u1.
-4. One on μ, solved for u2: the lever is stopped before its end.
+4. A barrier on μ, solved for u2: the lever stops before its end.
 5. A governor of the stiffness: while the load needs more torque than a soft spring can transmit,
    σ_d is raised.
 
-It assumes that limits and the domain are known, and that the nominal model is near the plant. What
-it costs compared with NDOBC is listed with the results.
+It assumes that limits and the domain are known, and that the nominal model is near the plant. The
+results compare its effort with that of NDOBC.
 """
 
 import math
@@ -62,7 +62,7 @@ class YieldingPoles(LawParameters):
         "rad/s", "Lower bound of a", symbol="a_min", ge=10, le=150, default=48.0
     )
     return_rad_per_s2: Number = quantity(
-        "rad/s²", "How fast a comes back", symbol="ȧ", ge=10, le=1e5, default=2000.0
+        "rad/s²", "Rate at which a returns", symbol="ȧ", ge=10, le=1e5, default=2000.0
     )
     stiffness_pole_rad_per_s: Number = quantity(
         "rad/s",
@@ -76,27 +76,27 @@ class YieldingPoles(LawParameters):
         "rad/s", "ω: both poles of its observer", symbol="ω", ge=5, le=300, default=40.0
     )
     rate_share: Number = quantity(
-        "1", "Share of the load's estimated rate that is acted on", symbol="ρ", ge=0, le=1,
+        "1", "Share of the load's estimated rate that is compensated", symbol="ρ", ge=0, le=1,
         default=0.5,
     )  # fmt: skip
     governed_share: Number = quantity(
         "1",
-        "Share of the limit of deflection from which on the spring is stiffened for a load",
+        "Share of the deflection limit above which the spring is stiffened under a load",
         symbol="φ_g",
         ge=0.2,
         le=1,
         default=0.55,
     )
     torque_ratio: Number = quantity(
-        "1", "What may be wanted of the spring, over what it gives near its limit of deflection",
+        "1", "Limit of the elastic torque, relative to that near the deflection limit",
         symbol="κ", ge=1, le=10, default=1.8,
     )  # fmt: skip
     deflection_share: Number = quantity(
-        "1", "Share of the limit of deflection at which the barrier stands", symbol="b", ge=0.3,
+        "1", "Position of the barrier, as a share of the deflection limit", symbol="b", ge=0.3,
         le=0.99, default=0.8,
     )  # fmt: skip
     deflection_rad_per_s: Number = quantity(
-        "rad/s", "l: how fast the barrier may be approached", symbol="l", ge=10, le=300,
+        "rad/s", "l: largest rate of approach to the barrier", symbol="l", ge=10, le=300,
         default=60.0,
     )  # fmt: skip
 

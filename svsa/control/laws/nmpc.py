@@ -45,26 +45,26 @@ class Horizon(LawParameters):
     """Weights of error and effort, and the observer."""
 
     position_rad: Number = quantity(
-        "rad", "Error of the position that is worth the unit of snap", symbol="e_q", ge=1e-3, le=10,
-        default=0.0603,
+        "rad", "Position error with the same cost as the unit of snap", symbol="e_q", ge=1e-3,
+        le=10, default=0.0603,
     )  # fmt: skip
     velocity_rad_per_s: Number = quantity(
-        "rad/s", "Error of the velocity that is", symbol="e_v", ge=1e-2, le=1000, default=1.24
+        "rad/s", "Velocity error with the same cost", symbol="e_v", ge=1e-2, le=1000, default=1.24
     )
     snap_rad_per_s4: Number = quantity(
         "rad/s⁴",
-        "Unit of snap: what is y1's effort",
+        "Unit of snap, the effort of y1",
         symbol="y_n",
         ge=1e3,
         le=1e8,
         default=266000.0,
     )
     stiffness_nm_per_rad: Number = quantity(
-        "N·m/rad", "Error of the stiffness that is worth its unit", symbol="e_σ", ge=1e-2, le=100,
-        default=8.36,
+        "N·m/rad", "Stiffness error with the same cost as the unit of σ̈", symbol="e_σ", ge=1e-2,
+        le=100, default=8.36,
     )  # fmt: skip
     stiffening_nm_per_rad_s2: Number = quantity(
-        "N·m/rad/s²", "Unit of σ̈: what is y2's effort", symbol="σ_n", ge=1e2, le=1e7, default=8420.0
+        "N·m/rad/s²", "Unit of σ̈, the effort of y2", symbol="σ_n", ge=1e2, le=1e7, default=8420.0
     )
     observer_rad_per_s: Number = quantity(
         "rad/s", "β of its observer", symbol="β", ge=1, le=300, default=232.0

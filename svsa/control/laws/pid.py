@@ -36,14 +36,14 @@ class MotorGains(LawParameters):
     )
     motor2_damping: Number = quantity("1", "ζ2", symbol="ζ2", ge=0.05, le=5, default=0.478)
     position_integral_per_s: Number = quantity(
-        "1/s", "ki1: how fast the principal motor is moved on", symbol="ki1", ge=0, le=200,
+        "1/s", "ki1: integral gain of the principal motor", symbol="ki1", ge=0, le=200,
         default=14.1,
     )  # fmt: skip
     link_rad_per_s: Number = quantity(
         "rad/s", "kq: of the link's own error", symbol="kq", ge=0, le=100, default=16.9
     )
     stiffness_integral_per_s: Number = quantity(
-        "1/s", "ki2: how fast the stiffness motor is moved on", symbol="ki2", ge=0, le=200,
+        "1/s", "ki2: integral gain of the stiffness motor", symbol="ki2", ge=0, le=200,
         default=20.0,
     )  # fmt: skip
 

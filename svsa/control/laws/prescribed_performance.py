@@ -51,7 +51,7 @@ class Funnels(LawParameters):
         "1", "r: initial over final width of every funnel", symbol="r", ge=1, le=20, default=3.0
     )
     decay_per_s: Number = quantity(
-        "1/s", "λ: how fast the funnels narrow", symbol="λ", ge=0.1, le=50, default=4.0
+        "1/s", "λ: rate at which the funnels narrow", symbol="λ", ge=0.1, le=50, default=4.0
     )
 
     position_width_rad: Number = quantity(

@@ -37,10 +37,10 @@ class Network(LawParameters):
         "rad/s", "p of (s + p)², the stiffness's", symbol="p", ge=5, le=150, default=112.0
     )
     learning_rad_per_s: Number = quantity(
-        "rad/s", "ω: how fast the networks learn", symbol="ω", ge=1, le=300, default=53.1
+        "rad/s", "ω: learning rate of the networks", symbol="ω", ge=1, le=300, default=53.1
     )
     width: Number = quantity(
-        "1", "Width of a basis function over the distance of two", symbol="h", ge=0.3, le=5,
+        "1", "Width of a basis function relative to their distance", symbol="h", ge=0.3, le=5,
         default=4.1,
     )  # fmt: skip
 

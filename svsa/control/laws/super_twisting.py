@@ -41,13 +41,18 @@ class Sliding(LawParameters):
         "rad/s", "p of s_σ = ė_σ + p e_σ", symbol="p", ge=5, le=150, default=108.0
     )
     position_bound: Number = quantity(
-        "rad/s⁵", "L1: rate of what disturbs q⁗", symbol="L1", ge=1e3, le=1e9, default=3.79e6
+        "rad/s⁵", "L1: rate of the disturbance of q⁗", symbol="L1", ge=1e3, le=1e9, default=3.79e6
     )
     stiffness_bound: Number = quantity(
-        "N·m/rad/s³", "L2: rate of what disturbs σ̈", symbol="L2", ge=1e2, le=1e8, default=1.68e5
+        "N·m/rad/s³",
+        "L2: rate of the disturbance of σ̈",
+        symbol="L2",
+        ge=1e2,
+        le=1e8,
+        default=1.68e5,
     )
     link_bound: Number = quantity(
-        "rad/s³", "L0: rate of what disturbs q̈", symbol="L0", ge=1e1, le=1e7, default=1.2e4
+        "rad/s³", "L0: rate of the disturbance of q̈", symbol="L0", ge=1e1, le=1e7, default=1.2e4
     )
     position_layer_s: Number = quantity(
         "s", "δ1: the layer of s is δ1² L1", symbol="δ1", ge=1e-4, le=1, default=0.01

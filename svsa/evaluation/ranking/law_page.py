@@ -32,7 +32,7 @@ _DEGREE = math.degrees(1.0)
 _ESTIMATES = {
     "none": "No estimate of the load.",
     "observer": "ŵ of the loop's disturbance observer.",
-    "own": "An estimate of the load that it makes itself.",
+    "own": "Its own estimate of the load.",
 }
 VARIANTS = {
     "tuned": "tuned",
