@@ -80,7 +80,7 @@ def reproduce(
     ] = None,
     output: Annotated[Path, typer.Option(help="Folder for the pictures.")] = Path("figures"),
     as_json: Annotated[
-        bool, typer.Option("--json", help="Print the numbers, draw nothing.")
+        bool, typer.Option("--json", help="Print the numbers without pictures.")
     ] = False,
 ) -> None:
     """Run the paper's figures with FL and NDOBC: 4A, 4B, 5 simulated, 6A, 6B, 7 through CAN."""
@@ -131,9 +131,9 @@ app.command("bench-home")(bench_home)
 @app.command("benchmark")
 def measure_costs(
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
-    repeats: Annotated[int, typer.Option(min=1, help="How often each is measured.")] = 15,
+    repeats: Annotated[int, typer.Option(min=1, help="Number of measurements of each value.")] = 15,
     laws: Annotated[
-        bool, typer.Option("--laws", help="A tick under each law, and nothing else.")
+        bool, typer.Option("--laws", help="Measure only a tick under each law.")
     ] = False,
     start: Annotated[
         bool, typer.Option(help="Also compile everything again, to measure it (a minute).")
@@ -152,14 +152,14 @@ def measure_costs(
     if not laws and costs["ratio_to_c"] is None:
         _messages.print(
             "No C loop to compare with: it needs a C compiler (cc) and tests/benchmarks/loop.c of"
-            " the source tree, which an installed package has not. Ratios are null."
+            " the source tree, which an installed package does not contain. Ratios are null."
         )
     if as_json:
         each = {law: cost._asdict() for law, cost in ticks.items()}
         print(json.dumps(each or costs, indent=2))
         return
     heads = ("law", *TickCost._fields) if laws else ("what", "cost")
-    table = Table(*heads, title="Time of a tick" if laws else "CPU time, the least of many")
+    table = Table(*heads, title="Time of a tick" if laws else "CPU time, minimum of many")
     for law, cost in ticks.items():
         table.add_row(law, *(f"{value:.4g}" for value in cost))
     by_effects = costs.pop("runs_per_second_1_core_by_effects", {})

@@ -117,7 +117,7 @@ def _complete_operation(operation: dict[str, Any], needs_secret: bool) -> None:
         answers["401"] = _describe(
             "The shared secret, or the token of a class, is missing or wrong"
         )
-        answers["429"] = _describe("In a class: too much at once; again after Retry-After")
+        answers["429"] = _describe("In a class: too many requests; repeat after Retry-After")
     if "requestBody" in operation:
         answers["400"] = _describe("The body is not JSON")
         answers["413"] = _describe(f"The body is longer than {LONGEST_BODY_BYTES} bytes")

@@ -52,9 +52,9 @@ FAULTS: dict[str, FaultKind] = {
     "lever_end": FaultKind(
         "End of stiffness range",
         _DOMAIN,
-        "A load deflects a soft spring far. To keep the stiffness meanwhile, the control law moves"
-        " the stiffness motor far and fast. Whether the end is reached depends on the time at which"
-        " the load comes. A torque on the stiffness motor can have the same effect. Try a stiffer"
+        "A load deflects a soft spring far. To keep the stiffness, the control law then moves"
+        " the stiffness motor far and fast. Whether the end is reached depends on the onset time"
+        " of the load. A torque on the stiffness motor can have the same effect. Try a stiffer"
         " setting, a smaller load, a slower motion, slower stiffness poles and observer (Place"
         " poles), or a control law that reduces its bandwidth while the torque saturates (NDOBC-W,"
         " NDOBC-S).",
@@ -122,7 +122,7 @@ FAULTS: dict[str, FaultKind] = {
     "drive_silent": FaultKind(
         "Drive silent", "a drive did not answer while it was brought to READY", within_s=2.0
     ),
-    "bus_error": FaultKind("Bus error", "the bus reported an error, or is gone"),
+    "bus_error": FaultKind("Bus error", "the bus reported an error, or is lost"),
     "foreign_command": FaultKind(
         "Foreign command", "another program on the bus sent the drives a command"
     ),
@@ -174,11 +174,11 @@ LOSSES: tuple[str, ...] = tuple(code for code, kind in FAULTS.items() if kind.is
 """The codes of a bench whose loop does not tick."""
 
 _HEAT_ADVICE = (
-    "From 90 % of the rated heat of its winding (I²t) on, a motor makes less torque than the"
+    "From 90 % of the rated heat of its winding (I²t) on, a motor produces less torque than the"
     " control law commands, so that the winding is not damaged. The remaining torque did not hold"
-    " the load, and the actuator moved to where the fault says. Other gains and control laws do not"
-    " help. Let the motor cool (its heat is under Details), then try a load that needs less torque"
-    " of that motor, or remove the load earlier."
+    " the load, and the actuator moved to the position in the fault. Other gains and control laws"
+    " do not help. Let the motor cool (its heat is under Details), then try a load that needs less"
+    " torque of that motor, or remove the load earlier."
 )
 
 

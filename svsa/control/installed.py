@@ -99,7 +99,7 @@ def _load_law(name: str) -> Law | str:
         return f"The law {name} of the package {package} does not load: {reported}"
     if not isinstance(law, Law) or law.name != name:
         found = f"the law {law.name}" if isinstance(law, Law) else f"a {type(law).__name__}"
-        return f"The package {package} announces the law {name}, but brings {found}."
+        return f"The package {package} declares the law {name}, but contains {found}."
     return law
 
 

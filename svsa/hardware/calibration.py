@@ -26,9 +26,9 @@ class Calibration(Checked):
 
     date: str = quantity("", "When, ISO 8601 with its zone")
     by: str = quantity("", "Who made it", min_length=1, max_length=100)
-    fingerprint: str = quantity("", "Of the bench file that it was made for")
-    deflection_zero_counts: Whole = quantity("counts", "Of the deflection encoder at φ = 0")
-    signs_confirmed: Flag = quantity("", "Every sign was seen to be right")
+    fingerprint: str = quantity("", "Fingerprint of the bench file of the calibration")
+    deflection_zero_counts: Whole = quantity("counts", "Counts of the deflection encoder at φ = 0")
+    signs_confirmed: Flag = quantity("", "Whether every sign was confirmed")
 
 
 def compute_fingerprint(bench: BenchFile) -> str:

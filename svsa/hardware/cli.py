@@ -33,7 +33,9 @@ def bench_check(
     ] = False,
     yes: Annotated[
         bool,
-        typer.Option("--yes", help="Move without asking; no user is asked which way they went."),
+        typer.Option(
+            "--yes", help="Move without confirmation; no user is asked for the directions."
+        ),
     ] = False,
 ) -> None:
     """Test a bench step by step: file, bus, drives, encoders; with --move signs and scales."""
@@ -71,7 +73,9 @@ def bench_home(
     file: BenchPath,
     by: Annotated[
         str | None,
-        typer.Option(help="Name of the user who looks at the marks; asked for if left out."),
+        typer.Option(
+            help="Name of the user who checks the marks; by default a question asks for it."
+        ),
     ] = None,
 ) -> None:
     """Write the calibration record of a bench: observer of the zero marks, and zero counts."""

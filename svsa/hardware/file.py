@@ -40,7 +40,7 @@ class TimingSettings(Checked):
     )
     start_silence_s: Number = quantity(
         "s",
-        "A loop that starts is given up when it has not got on for so long",
+        "Time without progress after which a starting loop is abandoned",
         ge=1,
         le=3600,
         default=60.0,
@@ -71,9 +71,11 @@ class SafetySettings(Checked):
     )
     supervisor_s: Number = quantity("s", "Supervisor silent: fault", gt=0, le=5, default=0.05)
     server_s: Number = quantity("s", "Server silent: ramp to zero", ge=0.1, le=60, default=1.0)
-    dead_man: Flag = quantity("", "It runs only while the operator holds a switch", default=False)
+    dead_man: Flag = quantity("", "Runs only while the operator holds a switch", default=False)
     operator_s: Number = quantity("s", "Switch not held: ramp to zero", ge=0.05, le=2, default=0.1)
-    needs_watcher: Flag = quantity("", "Runs only while a stream of it is open", default=True)
+    needs_watcher: Flag = quantity(
+        "", "Runs only while a stream of the session is open", default=True
+    )
 
 
 class DesignSettings(Checked):
@@ -112,7 +114,7 @@ class BenchFile(Checked):
     name: str = quantity("", "What people call it")
     bus: BusSettings
     supervisor_bus: BusSettings | None = quantity(
-        "", "The supervisor's own way to the bus, where an adapter serves one program", default=None
+        "", "The supervisor's own adapter, if an adapter serves one program only", default=None
     )
     motor1: Motor
     motor2: Motor

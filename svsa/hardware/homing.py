@@ -49,7 +49,9 @@ class Homing:
         if step not in names:
             raise ParameterError(Violation("step", step, "", "one of " + ", ".join(names)))
         if not by.strip():
-            raise ParameterError(Violation("by", by, "", "the name of who looked at the mark"))
+            raise ParameterError(
+                Violation("by", by, "", "the name of the user who checked the mark")
+            )
         if step != self.next_step:
             reported = AXIS_WORDS[self.next_step] if self.next_step else "nothing is left"
             raise StateError(

@@ -25,7 +25,7 @@ def request_priority(priority: int) -> str:
     try:
         os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(priority))
     except OSError as error:
-        return f"ordinary priority: SCHED_FIFO was refused ({error.strerror}); see `ulimit -r`"
+        return f"ordinary priority: SCHED_FIFO was denied ({error.strerror}); see `ulimit -r`"
     return f"SCHED_FIFO, priority {priority}"
 
 
@@ -37,5 +37,5 @@ def _lock_memory() -> str:
         return "memory not locked: this system has no mlockall"
     if refused:
         reason = os.strerror(ctypes.get_errno())
-        return f"memory not locked: mlockall was refused ({reason}); see `ulimit -l`"
+        return f"memory not locked: mlockall was denied ({reason}); see `ulimit -l`"
     return "memory locked"

@@ -68,7 +68,7 @@ def read_deflection_zero(
         raise EncoderError(probe.encoder_failure)
     if not counts:
         raise EncoderError(
-            f"The deflection encoder said nothing in {LISTEN_S:g} s: run `svsa bench-check`."
+            f"The deflection encoder sent nothing for {LISTEN_S:g} s: run `svsa bench-check`."
         )
     if max(counts) - min(counts) > STILL_COUNTS:
         raise StateError(

@@ -65,7 +65,7 @@ class Checked(BaseModel):
         if len(positional) == 1 and cls.main:
             return {cls.main: positional[0]}
         names = ", ".join(f"{name}=…" for name in cls.model_fields if name != "kind")
-        raise TypeError(f"Values have names here: {cls.__name__}({names}).")
+        raise TypeError(f"Values must have names: {cls.__name__}({names}).")
 
     def changed(self, **changes: Any) -> Self:
         """Return a validated copy with some fields replaced.

@@ -27,7 +27,7 @@ class Change(Checked):
     """
 
     at_s: Number = quantity("s", "Time of the run", ge=0, le=1e6)
-    law: LawName | None = quantity("", "Name of a law that is installed", default=None)
+    law: LawName | None = quantity("", "Name of an installed law", default=None)
     gains: Gains | None = None
     parameters: ParametersByLaw | None = quantity(
         "", "Parameters of laws that have their own, by the law's name", default=None

@@ -97,7 +97,7 @@ class Design(Checked):
 class Lane(Checked):
     """A controller with its own plant: same references, loads and noise as the others."""
 
-    law: LawName = quantity("", "Name of a law that is installed")
+    law: LawName = quantity("", "Name of an installed law")
     gains: Gains | None = quantity(
         "", "Gains of a law that uses them (FL, NDOBC); by default those of the run", default=None
     )
@@ -156,15 +156,15 @@ class ArmSetup(Checked):
 class Configuration(Design):
     """Everything that determines a run, except the commands during it."""
 
-    law: LawName = quantity("", "Name of a law that is installed", default=PAPERS_LAW)
+    law: LawName = quantity("", "Name of an installed law", default=PAPERS_LAW)
     comparisons: tuple[Lane, ...] = quantity(
         "",
-        "Controllers of the comparison lanes, each on a plant of its own",
+        "Controllers of the comparison lanes, each with its own plant",
         default=(),
         max_length=MAX_LANES - 1,
     )
     effects: Effects = quantity(
-        "", "What separates the simulation from a bench", symbol="Effects", default=IDEAL
+        "", "Non-ideal effects of the simulation", symbol="Effects", default=IDEAL
     )
     seed: Whole = quantity("", "Seed of the sensor noise", ge=0, le=2**63 - 1, default=0)
     position: PositionReference
@@ -306,8 +306,8 @@ def _list_wrong(joint: Configuration, arm: ArmSetup, is_second: bool) -> list[Vi
     for lane in joint.controllers if arm.feedforward else ():
         if is_usable(lane.law) and not get_law(lane.law).takes_feedforward:
             bound = (
-                "a law that takes the arm feedforward: this one estimates the whole disturbance,"
-                " and the feedforward would count twice, or it does not use q̈_d"
+                "a law that takes the arm feedforward: this one estimates the complete"
+                " disturbance, so the feedforward would count twice, or it does not use q̈_d"
             )
             found.append(Violation("law", lane.law, "", bound))
     return found

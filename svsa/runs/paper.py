@@ -52,8 +52,8 @@ class Figure(NamedTuple):
 
 
 _CLAIM_FIXED = (
-    "Both laws track alike for the first 5 s; after the load FL tracks poorly and NDOBC goes"
-    " on; the stiffness has little effect."
+    "Both laws track alike for the first 5 s; after the load FL tracks poorly and"
+    " NDOBC continues to track; the stiffness has little effect."
 )
 
 FIGURES = {

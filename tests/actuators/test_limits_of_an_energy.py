@@ -117,7 +117,7 @@ def test_actuator_without_stiffness_motor_needs_a_linear_spring():
         compile_energy(build_wrong(harden, has_stiffness_motor=False))
 
 
-def test_the_end_of_the_stiffness_range_that_the_energy_does_not_reach_is_named():
+def test_unreachable_end_of_the_stiffness_range_is_named():
     """A twentieth of the torque of the springs: 1.2 N·m/rad at most."""
     weak = QBMOVE.prototype.changed(spring_torque_nm=1e-4)
     named = r"^limits\.stiffness_max_nm_per_rad is 15\.0 N·m/rad.*nearest is 1\.2"

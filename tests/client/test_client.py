@@ -74,7 +74,7 @@ def test_rejection_raises_the_error_of_the_library(lab: Lab) -> None:
     (violation,) = refused.value.violations
     assert (violation.name, violation.value) == ("fl_integral.position_pole_rad_per_s", 1e6)
     assert violation.unit == "rad/s"
-    with pytest.raises(svsa.StateError, match="simulated: there is no bench behind it"):
+    with pytest.raises(svsa.StateError, match="simulated: it has no bench"):
         lab.session.bench.arm()
     with pytest.raises(LabError, match="no run 'nowhere'"):
         _ = lab.runs["nowhere"]

@@ -42,7 +42,7 @@ def test_run_that_ends_before_the_wall_has_no_force():
     assert np.isnan(one.peak_n) and np.isnan(one.work_j) and not len(one.force_n)
 
 
-def test_a_collision_without_contact_is_no_fault(monkeypatch):
+def test_collision_without_contact_is_no_fault(monkeypatch):
     """The wall is out of reach."""
     monkeypatch.setattr("svsa.evaluation.arm_collision._WALL_M", 0.3)
     one = measure_collision("pd", 80.0, 1)

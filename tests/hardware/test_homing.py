@@ -42,7 +42,7 @@ def test_unknown_mark_or_missing_user_is_rejected():
     homing = Homing()
     with pytest.raises(ParameterError, match="one of link, motor1, motor2"):
         homing.confirm("elbow", "Ada")
-    with pytest.raises(ParameterError, match="who looked"):
+    with pytest.raises(ParameterError, match="the user who checked"):
         homing.confirm("link", "  ")
     assert homing.confirmed == {}
 

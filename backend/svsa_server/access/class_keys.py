@@ -51,8 +51,8 @@ class ClassKeys:
             self._key: str = kept["signing_key"]
         except (OSError, ValueError, KeyError, TypeError) as error:
             raise SecurityError(
-                f"The keys of the class in {path} cannot be read ({error}): delete the file, and"
-                " the next start makes new ones."
+                f"The keys of the class in {path} cannot be read ({error}): delete the file;"
+                " the next start creates new keys."
             ) from None
         self._signer = URLSafeTimedSerializer(self._key, salt="svsa person")
 

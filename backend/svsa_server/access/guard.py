@@ -28,7 +28,7 @@ from svsa_server.config import is_loopback
 from svsa_server.problems import answer_problem
 
 LONGEST_BODY_BYTES = 4 * 1024 * 1024
-_TOO_LARGE = f"A request holds at most {LONGEST_BODY_BYTES} bytes."
+_TOO_LARGE = f"A request has at most {LONGEST_BODY_BYTES} bytes."
 PERSON = "svsa.person"
 
 FindOwner = Callable[[Scope, Kind, str], Awaitable[Owner | None]]
@@ -118,7 +118,7 @@ class AccessGuard:
 
     def _check_place(self, scope: Scope) -> None:
         if not is_same_origin(scope) and find_path(scope) not in FROM_ELSEWHERE:
-            message = "Requests from the pages of other sites are refused."
+            message = "Requests from the pages of other sites are rejected."
             raise Refusal(403, "other_origin", message)
         host = read_host(scope)
         if self._authentication.kind == "open":

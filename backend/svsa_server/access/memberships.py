@@ -76,7 +76,7 @@ class Memberships:
         with self._lock:
             if person.id not in self._members and len(self._members) >= MAX_MEMBERS:
                 raise StateError(
-                    f"{MAX_MEMBERS} people have joined, which is all that a class takes: delete"
+                    f"{MAX_MEMBERS} people have joined, the maximum of a class: delete"
                     f" {self._path.name} while the lab is stopped, and all users join again."
                 )
             with self._open() as file:

@@ -17,7 +17,7 @@ def serve(
             help="Address; 'auto' is every address with SVSA_SECRET or --class, else 127.0.0.1."
         ),
     ] = "127.0.0.1",
-    port: Annotated[int, typer.Option(min=0, max=65535, help="Port; 0 takes a free one.")] = 8000,
+    port: Annotated[int, typer.Option(min=0, max=65535, help="Port; 0 selects a free one.")] = 8000,
     bench: Annotated[
         Path | None, typer.Option(help="Bench file: drive this bench; simulate if left out.")
     ] = None,
@@ -28,12 +28,15 @@ def serve(
     classroom: Annotated[
         bool,
         typer.Option(
-            "--class", help="People join with a name and a class code; one operates at a time."
+            "--class",
+            help="Class: students join with a name and a class code; one operator at a time.",
         ),
     ] = False,
     root_path: Annotated[
         str,
-        typer.Option(help="Path under which a proxy has the lab, such as /svsa; it takes it off."),
+        typer.Option(
+            help="Path under which a proxy serves the lab, such as /svsa; the proxy removes it."
+        ),
     ] = "",
     course: Annotated[
         Path | None,

@@ -46,7 +46,7 @@ class HeavyWork:
         if self._taken >= self._most:
             raise BusyError(
                 f"{self._taken} exports, replays, comparisons, maps and laws of the ranking are"
-                f" in progress, which is all this lab runs at once: try again in {RETRY_AFTER_S} s."
+                f" in progress, the maximum of this lab: try again in {RETRY_AFTER_S} s."
             )
         self._taken += 1
         try:
@@ -75,7 +75,7 @@ class HeavyWork:
         """Wait until a worker has started if none is idle; the first one takes seconds."""
         with self._handing_over:
             if self._is_closed:
-                raise BusyError("This lab is ending: nothing is begun any more.")
+                raise BusyError("This lab is shutting down: it starts no more work.")
             if self._pool is None:
                 self._pool = start_workers(self._workers, _JOBS_A_WORKER)
             return self._pool.submit(job, *arguments)

@@ -237,7 +237,7 @@ class Jobs:
         share = queue.find_share(owner)
         if share is not None and own >= share.most:
             raise TooManyError(
-                f"{own} {PLURALS[kind]} of yours run or wait, and each person may have"
+                f"{own} of your {PLURALS[kind]} run or wait, and each user may have"
                 f" {share.most}: wait until one has ended, or cancel one."
             )
         most = queue.most
@@ -245,8 +245,8 @@ class Jobs:
             most += 1
         if len(under_way) >= most:
             raise BusyError(
-                f"{len(under_way)} {PLURALS[kind]} run or wait, and this lab takes {queue.most} at"
-                " once: cancel one, or try again later."
+                f"{len(under_way)} {PLURALS[kind]} run or wait, and this lab accepts"
+                f" {queue.most} at once: cancel one, or try again later."
             )
 
     def get(self, name: str, kind: Kind | None = None) -> Job:
@@ -258,7 +258,7 @@ class Jobs:
         job = self._kept.get(name)
         if job is None or kind not in (None, job.kind):
             raise UnknownError(
-                f"There is no {kind or 'job'} {name[:80]} here: it may be of an earlier start."
+                f"There is no {kind or 'job'} {name[:80]} here: a server restart deletes jobs."
             )
         return job
 
@@ -278,7 +278,7 @@ class Jobs:
 def _describe_late(share: Share) -> str:
     return (
         f"Stopped after {share.longest_s:g} s, the time that a job of one person may run here"
-        " (SVSA_JOB_S): what was finished by then is kept. Ask for less, or ask the instructor."
+        " (SVSA_JOB_S): finished parts are kept. Request less work, or ask the instructor."
     )
 
 

@@ -56,7 +56,7 @@ def read_launch(platform: Platform, keys: KeySet, token: str, nonce: str) -> Lau
         )
         needed.validate(claims)
     except (JoseError, ValueError, TypeError, KeyError) as error:
-        raise LaunchError(f"The platform's token is not good: {error}") from None
+        raise LaunchError(f"The platform's token is invalid: {error}") from None
     audience = claims["aud"]
     if isinstance(audience, list) and len(audience) > 1:
         _check(claims, "azp", (platform.client_id,))
@@ -65,7 +65,7 @@ def read_launch(platform: Platform, keys: KeySet, token: str, nonce: str) -> Lau
     _check(claims, f"{_CLAIM}deployment_id", platform.deployments)
     user = claims.get("sub")
     if not isinstance(user, str) or not 0 < len(user) <= 255:
-        raise LaunchError("The platform does not say who launches (sub): allow it to.")
+        raise LaunchError("The platform does not send the id of the user (sub): enable it there.")
     custom = _read_table(claims, f"{_CLAIM}custom")
     return Launch(
         user,

@@ -88,7 +88,7 @@ class ScoreSender:
         """Send a score; return why it did not arrive, or an empty text."""
         platform = self._tool.settings.find(link.issuer, link.client_id)
         if platform is None:
-            return "The platform is not configured any more."
+            return "The platform is no longer configured."
         try:
             token = await self._get_token(platform)
             answer = await self._tool.client.post(

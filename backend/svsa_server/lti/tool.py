@@ -59,9 +59,9 @@ class LtiTool:
         """
         platform = self.settings.find(asked.get("iss", ""), asked.get("client_id"))
         if platform is None:
-            raise LaunchError(f"This lab knows no platform {asked.get('iss', '')!r:.200}.")
+            raise LaunchError(f"This lab has no platform {asked.get('iss', '')!r:.200}.")
         if not asked.get("login_hint"):
-            raise LaunchError("The platform does not say who comes (login_hint).")
+            raise LaunchError("The platform does not send the user of the login (login_hint).")
         return platform
 
     def begin(self, asked: Mapping[str, str], redirect: str) -> tuple[str, str]:
@@ -91,20 +91,20 @@ class LtiTool:
         """
         state, token = given.get("state", ""), given.get("id_token", "")
         if error := given.get("error"):
-            raise LaunchError(f"The platform says: {error} {given.get('error_description', '')}")
+            raise LaunchError(f"The platform reports: {error} {given.get('error_description', '')}")
         if not hmac.compare_digest(state.encode(), cookie.encode()):
             raise LaunchError(
-                "It was not begun in this browser, or its cookies are blocked: launch it again, in"
-                " a window of its own."
+                "It was not started in this browser, or the cookies are blocked: launch it"
+                " again, in a separate window."
             )
         # The first use ends the login, so that a launch cannot be replayed.
         login = self._logins.end(state)
         if login is None:
-            raise LaunchError("It was used already, or is too old: launch it again.")
+            raise LaunchError("It was already used, or is too old: launch it again.")
         try:
             kid = extract_compact(token.encode()).headers().get("kid")
         except (JoseError, ValueError, TypeError) as error:
-            raise LaunchError(f"The platform's token is not good: {error}") from None
+            raise LaunchError(f"The platform's token is invalid: {error}") from None
         keys = await self._keys.get(login.platform.keyset_url, kid)
         return login.platform, read_launch(login.platform, keys, token, login.nonce)
 

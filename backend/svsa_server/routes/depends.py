@@ -115,8 +115,8 @@ async def check_unchanged(
     """Raise `ChangedError` if another client has changed settings or loads since."""
     if if_match is not None and if_match.strip('"') not in ("*", hosted.revision):
         raise ChangedError(
-            f"Session {hosted.session.name} was changed meanwhile, it is at {hosted.revision}, not"
-            f" {if_match[:40]}: read it again, and set what is still to be set."
+            f"Session {hosted.session.name} was changed: its revision is {hosted.revision}, not"
+            f" {if_match[:40]}. Read it again, and repeat the change if it is still needed."
         )
 
 
@@ -148,7 +148,7 @@ REFUSALS: dict[int | str, dict[str, Any]] = {
 }
 
 CHANGED: dict[int | str, dict[str, Any]] = {
-    412: {"model": Problem, "description": "Changed by another client meanwhile; see If-Match"}
+    412: {"model": Problem, "description": "Changed by another client since; see If-Match"}
 }
 BUSY: dict[int | str, dict[str, Any]] = {
     503: {

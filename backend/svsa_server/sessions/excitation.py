@@ -79,9 +79,9 @@ def check_excitable(session: Session) -> None:
             f"The identification is of the SVSA, and this session simulates {mechanism.title}."
         )
     if session.journal.recorder is not None:
-        raise StateError("The session is being recorded: stop that first, this is its own run.")
+        raise StateError("The session is being recorded: stop the recording first.")
     if any(load.end_tick > session.run.tick for load in session.run.loads):
-        raise StateError("A load is on, or is to come: take every load off first.")
+        raise StateError("A load is active or scheduled: remove every load first.")
     if session.pace.speed > FASTEST_SPEED:
         raise StateError(f"Speed {session.pace.speed:g} is too fast: at most {FASTEST_SPEED:g}.")
 

@@ -230,7 +230,7 @@ class HostedSession:
     def check_excitable(self) -> None:
         """Raise `StateError` if the excitation could not be used for an identification."""
         if self.excitation is not None:
-            raise StateError("The excitation is being played already.")
+            raise StateError("The excitation is already being played.")
         check_excitable(self.session)
 
     def begin_excitation(self) -> None:

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 def stability(
-    law: Annotated[str, typer.Option(help="Name of a law that is installed.")] = "ndobc",
+    law: Annotated[str, typer.Option(help="Name of an installed law.")] = "ndobc",
     stiffness: Annotated[
         list[float] | None, typer.Option(help="σ_d, N·m/rad; 15 and 60 if left out.")
     ] = None,
@@ -33,7 +33,7 @@ def stability(
     starts: Annotated[
         int, typer.Option(min=0, max=101, help="Starts along each side of the map; 0: no map.")
     ] = 41,
-    plot: Annotated[Path | None, typer.Option(help="Draw it all into this file.")] = None,
+    plot: Annotated[Path | None, typer.Option(help="Draw everything into this file.")] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print the numbers as JSON.")] = False,
 ) -> None:
     """Show Theorem 1: poles under model error, gain from ẇ to e, fastest observer, attraction."""
@@ -43,7 +43,7 @@ def stability(
         require_extra("plot")
     configuration = build_configuration(law, pole, observer, parameters)
     with Progress(console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task("Compiling, then counting what comes to rest", total=1.0)
+        task = bar.add_task("Compiling, then simulating the initial states", total=1.0)
         reports = build_report(
             configuration,
             tuple(stiffness or (15.0, 60.0)),

@@ -174,15 +174,16 @@ def _judge_steady(
         return []
     if steady is None:
         message = (
-            f"With {law} no rest was found under the load: the error of stiffness or the deflection"
-            f" leaves the domain of the model, or something still moves after {LONGEST_S:g} s."
+            f"With {law} the actuator does not come to rest under the load: the stiffness error"
+            " or the deflection leaves the domain of the model, or there is still motion after"
+            f" {LONGEST_S:g} s."
             " Choose faster poles."
         )
         return [Reason("warn", "no_rest", message)]
     if abs(steady.position) > MAX_STEADY_ERROR_RAD:
         message = (
-            f"Under the load {law} stays {abs(math.degrees(steady.position)):.0f}° away. Choose"
-            " faster poles."
+            f"Under the load {law} has a steady-state error of"
+            f" {abs(math.degrees(steady.position)):.0f}°. Choose faster poles."
         )
         return [Reason("warn", "large_error", message)]
     return []
@@ -205,9 +206,9 @@ def _judge_noise(configuration: Configuration, noise: LoopNoise) -> list[Reason]
             "warn",
             "noise",
             _sentence(
-                f"{where}the counts of the encoders alone make {name} shake by {rms:.2g} N·m rms,"
-                f" {100.0 * rms / most:.0f} % of its limit: the motors hum and heat. Choose slower"
-                " poles or a slower observer."
+                f"{where}the encoder counts alone cause {rms:.2g} N·m rms of noise in {name},"
+                f" {100.0 * rms / most:.0f} % of its limit: the motors chatter and heat up. Choose"
+                " slower poles or a slower observer."
             ),
         )
         for name, rms, most in pairs
@@ -217,7 +218,7 @@ def _judge_noise(configuration: Configuration, noise: LoopNoise) -> list[Reason]
 
 def _judge_demand(configuration: Configuration, demand: TorqueDemand) -> list[Reason]:
     if demand.fault:
-        message = f"When the 3 kg come, the run ends in a fault. {demand.fault}"
+        message = f"Under the 3 kg load, the run ends in a fault. {demand.fault}"
         return [Reason("refuse", "fault", message)]
     if demand.limited_s == 0.0:
         return []
@@ -233,11 +234,13 @@ def _judge_demand(configuration: Configuration, demand: TorqueDemand) -> list[Re
     lasts = f"for {1000.0 * demand.limited_s:.0f} ms"
     if demand.limited_s > LONGEST_AT_LIMIT_S:
         message = (
-            f"The load holds a motor at its limit {lasts} ({asked}): until then nothing is"
-            " controlled. Choose slower poles."
+            f"The load saturates a motor {lasts} ({asked}), during which the loop is open. Choose"
+            " slower poles."
         )
         return [Reason("warn", "saturation", message)]
-    message = f"The load brings a motor to its limit {lasts} ({asked}), too short to do harm."
+    message = (
+        f"The load brings a motor to its limit {lasts} ({asked}), for a harmlessly short time."
+    )
     return [Reason("note", "saturation", message)]
 
 

@@ -87,6 +87,6 @@ def _summarize(found: "Identification") -> str:
     theta1, theta2, phi = (1e6 * value for value in found.residual_rad)
     return (
         f"Used: {found.used_s:g} s; under a load: {found.loaded_s:g} s; not explained:"
-        f" {found.dropped_s:g} s. Left of θ1, θ2, φ: {theta1:.0f}, {theta2:.0f}, {phi:.0f} µrad,"
-        f" {found.misfit:.1f} times the noise of the sensors."
+        f" {found.dropped_s:g} s. Residual of θ1, θ2, φ: {theta1:.0f}, {theta2:.0f}, {phi:.0f}"
+        f" µrad, {found.misfit:.1f} times the noise of the sensors."
     )

@@ -89,7 +89,7 @@ class Identification(NamedTuple):
         if self.undetermined:
             symbols = ", ".join(self.estimates[name].symbol for name in self.undetermined)
             raise IdentificationError(
-                f"Run {self.run_id} does not say enough of {symbols}: play the identification"
+                f"Run {self.run_id} does not determine {symbols}: play the identification"
                 " excitation, slow and fast, soft and stiff."
             )
         found = {name: self.estimates[name].value for name in ACTUATOR}

@@ -39,7 +39,7 @@ class Adversary(Checked):
         ParameterError: If a field is invalid.
     """
 
-    title: str = quantity("", "What the adversary may do", max_length=200)
+    title: str = quantity("", "Permitted actions of the adversary", max_length=200)
     law: InstalledLaw = quantity("", "Law under test", default=PAPERS_LAW)
     cost: Cost = quantity("", "Cost: fault, peak or recovery", default="fault")
     base: dict[str, Any] = quantity("", "Initial settings of all runs", default={FIGURE: "4a"})

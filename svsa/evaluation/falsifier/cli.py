@@ -21,16 +21,17 @@ if TYPE_CHECKING:
     from svsa.evaluation.falsifier.scenario import LoadScenario
 
 falsify = typer.Typer(
-    no_args_is_help=True, help="The load that hurts a law most, and the simplest that still does."
+    no_args_is_help=True,
+    help="The load that degrades a law most, and the simplest load with the same effect.",
 )
 _messages = Console(stderr=True)
 INTERRUPTED = 130
 _Adversary = Annotated[
-    str, typer.Argument(metavar="ADVERSARY", help="A file (.toml), or one of the package's.")
+    str, typer.Argument(metavar="ADVERSARY", help="A file (.toml), or a built-in adversary.")
 ]
 _Runs = Annotated[int, typer.Option(min=1, max=1_000_000, help="Runs at most.")]
-_Law = Annotated[str | None, typer.Option(help="Law to hurt, in place of the file's.")]
-_Picture = Annotated[Path | None, typer.Option(help="Draw it into this file.")]
+_Law = Annotated[str | None, typer.Option(help="Law under test, in place of the file's.")]
+_Picture = Annotated[Path | None, typer.Option(help="Draw the picture into this file.")]
 _Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
 
 
@@ -73,12 +74,12 @@ def search_command(
         _print_found(found)
     described = _describe(found, path) if as_json else None
     _compare_laws(scenario, list_baselines(adversary.law), described, picture)
-    _messages.print(f"Kept as {path}. Other laws: svsa falsify run {path} --laws all")
+    _messages.print(f"Saved as {path}. Other laws: svsa falsify run {path} --laws all")
     if not found.is_complete:
         keep_search(path, adversary, seed, "cma", found.severities)
         _messages.print(
-            f"Interrupted after {len(found.severities)} of {runs} runs, not made simple."
-            " The same command continues the search."
+            f"Interrupted after {len(found.severities)} of {runs} runs, not simplified. The"
+            " same command continues the search."
         )
         raise typer.Exit(INTERRUPTED)
     forget_search(path)
@@ -87,10 +88,12 @@ def search_command(
 @falsify.command("run")
 def run_command(
     source: Annotated[
-        str, typer.Argument(metavar="SCENARIO", help="A file (.toml), or one kept by its name.")
+        str,
+        typer.Argument(metavar="SCENARIO", help="A file (.toml), or the name of a saved scenario."),
     ],
     laws: Annotated[
-        str | None, typer.Option(help="Names joined by commas, or all; else that it was found for.")
+        str | None,
+        typer.Option(help="Names separated by commas, or all; by default the searched law."),
     ] = None,
     picture: _Picture = None,
     as_json: _Json = False,
@@ -216,7 +219,7 @@ def _print_found(found: "Falsified") -> None:
     console.print(f"  {describe_attack(found.attack)}")
     if found.shrunk is not None:
         simple = found.shrunk
-        console.print(f"Made simple by {simple.runs} runs: {simple.outcome}")
+        console.print(f"Simplified by {simple.runs} runs: {simple.outcome}")
         console.print(f"  {describe_attack(simple.attack)}")
         console.print(describe_neighborhood(found.scenario.found))
 

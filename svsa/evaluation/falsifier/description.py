@@ -28,14 +28,14 @@ def describe_outcome(measured: Measured, row: int, cost: Cost) -> str:
     """Describe the fault of a run, or its severity."""
     fault = measured.outcome["fault"][row]
     if fault == REFUSED:
-        return "refused: its settings do not go together"
+        return "rejected: its settings are incompatible"
     return label_fault(fault) if fault else format_severity(cost, float(measured.severity[row]))
 
 
 def describe_worst(cost: Cost, severity: float) -> str:
     """Describe the severity of a search's worst run so far."""
     if math.isinf(severity):
-        return "a fault" if severity > 0.0 else "settings that do not go together"
+        return "a fault" if severity > 0.0 else "incompatible settings"
     return format_severity(cost, severity)
 
 
@@ -54,7 +54,7 @@ def describe_neighborhood(finding: Finding | None) -> str:
         return ""
     return (
         f"Near it (each number within 5 % of its range) {finding.neighbors_hurt} of"
-        f" {finding.neighbors} random loads hurt as much: {format_share(share)}"
+        f" {finding.neighbors} random loads have the same effect: {format_share(share)}"
     )
 
 

@@ -121,7 +121,7 @@ def keep_scenario(name: str, scenario: LoadScenario) -> Path:
     path = _locate(name)
     content = format_scenario(scenario).encode()
     if path.exists() and path.read_bytes() != content:
-        raise ParameterError(Violation("name", name, "", "free: another scenario is kept by it"))
+        raise ParameterError(Violation("name", name, "", "a free name: another scenario has it"))
     path.parent.mkdir(parents=True, exist_ok=True)
     replace_file(path, content)
     return path
@@ -146,7 +146,7 @@ def open_scenario(source: str) -> LoadScenario:
         return read_scenario(source)
     if not is_kept(source):
         known = ", ".join(list_scenarios()) or "there is none"
-        bound = f"a file that ends in {_SUFFIX}, or kept by its name: {known}"
+        bound = f"a file that ends in {_SUFFIX}, or the name of a saved one: {known}"
         raise ParameterError(Violation("scenario", source, "", bound))
     return read_scenario(_find(source))
 

@@ -33,7 +33,7 @@ def bench(
         Path | None, typer.Option(help="Save the runs in this file; other laws there are kept.")
     ] = None,
     results: Annotated[
-        Path | None, typer.Option(help="Show what was kept there, and measure nothing.")
+        Path | None, typer.Option(help="Show the results saved there, and measure nothing.")
     ] = None,
 ) -> None:
     """Run laws through Figures 6A, 6B and 7 on the emulator: 12 numbers next to a baseline's."""

@@ -38,7 +38,7 @@ class BenchRun(Checked):
 class BenchRuns(Checked):
     """Runs of laws in figures, one after another."""
 
-    runs: tuple[BenchRun, ...] = quantity("", "A run a law and figure")
+    runs: tuple[BenchRun, ...] = quantity("", "One run per law and figure")
 
     @property
     def laws(self) -> tuple[str, ...]:

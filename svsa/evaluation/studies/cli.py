@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from svsa.evaluation.studies.study import Study
 
 study = typer.Typer(
-    no_args_is_help=True, help="Many perturbed runs of every law, and what can be said of them."
+    no_args_is_help=True, help="Many perturbed runs of every law, and their statistics."
 )
 _messages = Console(stderr=True)
 INTERRUPTED = 130
@@ -28,20 +28,26 @@ def run_command(
     source: Annotated[
         str,
         typer.Argument(
-            metavar="STUDY", help="A file (.toml or .py), a study begun before, or a built-in one."
+            metavar="STUDY", help="A file (.toml or .py), a saved study, or a built-in one."
         ),
     ],
-    runs: Annotated[int | None, typer.Option(min=1, help="Draws, in place of the file's.")] = None,
-    name: Annotated[str | None, typer.Option(help="Name to keep it by; else the file's.")] = None,
+    runs: Annotated[
+        int | None, typer.Option(min=1, help="Number of samples, in place of the file's.")
+    ] = None,
+    name: Annotated[
+        str | None, typer.Option(help="Name to save it under; by default the file's.")
+    ] = None,
     workers: Annotated[
         int | None,
-        typer.Option(min=1, max=256, help="Processes of low priority on this machine; else 2."),
+        typer.Option(
+            min=1, max=256, help="Processes of low priority on this machine; by default 2."
+        ),
     ] = None,
     scheduler: Annotated[
         str | None,
         typer.Option(
             metavar="ADDRESS",
-            help="Of a Dask cluster that runs it, such as tcp://10.0.0.1:8786; or `local`: one of"
+            help="Scheduler of a Dask cluster, such as tcp://10.0.0.1:8786; or `local`: one of"
             " --workers processes of this machine.",
         ),
     ] = None,
@@ -135,11 +141,11 @@ def list_command() -> None:
 
 @study.command("show")
 def show_command(
-    name: Annotated[str, typer.Argument(metavar="STUDY", help="A study that was begun.")],
+    name: Annotated[str, typer.Argument(metavar="STUDY", help="Name of a saved study.")],
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
     outcome: Annotated[
         str | None,
-        typer.Option(help="What Sobol indices are of: succeeded, or a metric; else succeeded."),
+        typer.Option(help="Outcome of the Sobol indices: succeeded (default), or a metric."),
     ] = None,
     pictures: Annotated[
         Path | None, typer.Option(help="Folder for pictures; none are drawn if left out.")
@@ -191,10 +197,13 @@ def show_command(
 
 @study.command("compare")
 def compare_command(
-    name: Annotated[str, typer.Argument(metavar="STUDY", help="A study that was begun.")],
+    name: Annotated[str, typer.Argument(metavar="STUDY", help="Name of a saved study.")],
     other: Annotated[
         str | None,
-        typer.Argument(metavar="OTHER", help="Another one that drew the same; else its own laws."),
+        typer.Argument(
+            metavar="OTHER",
+            help="Another study with the same samples; by default the study's own laws.",
+        ),
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
 ) -> None:
@@ -212,7 +221,7 @@ def compare_command(
     if as_json:
         write_json({"pairings": pairings})
     elif not pairings:
-        _messages.print(f"Study {name} has one law only: name another study that drew the same.")
+        _messages.print(f"Study {name} has one law only: name another study with the same samples.")
     else:
         for pairing in pairings:
             Console().print(build_pairing_table(pairing))
@@ -220,9 +229,9 @@ def compare_command(
 
 @study.command("replay")
 def replay_command(
-    name: Annotated[str, typer.Argument(metavar="STUDY", help="A study that was begun.")],
+    name: Annotated[str, typer.Argument(metavar="STUDY", help="Name of a saved study.")],
     row: Annotated[int, typer.Argument(help="Number of the row in its table, from 0.")],
-    keep: Annotated[bool, typer.Option(help="Put it among the recorded runs.")] = True,
+    keep: Annotated[bool, typer.Option(help="Save it as a recorded run.")] = True,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
 ) -> None:
     """Run one row of a study again, with all its samples, as a recorded run."""
@@ -251,7 +260,7 @@ def replay_command(
             _messages.print(f"Recorded as run {run_id}, with 3D on the page Runs of the lab.")
     if replay.differing:
         _messages.print(
-            f"[bold red]Not to the bit the same: {', '.join(replay.differing)}[/]. The study was"
+            f"[bold red]Not bit-identical: {', '.join(replay.differing)}[/]. The study was"
             f" run by version {stored.version} of svsa."
         )
         raise typer.Exit(1)

@@ -130,8 +130,8 @@ class Cluster:
                 return future.result()
         except KilledWorker:
             raise StudyError(
-                f"At {self._address} several workers ended over the same runs, for want of memory"
-                f" perhaps. {again}"
+                f"At {self._address} several workers ended during the same runs, possibly for"
+                f" lack of memory. {again}"
             ) from None
         except ModuleNotFoundError as error:
             raise StudyError(
@@ -189,7 +189,7 @@ def open_cluster(scheduler: str, workers: int) -> Iterator[Cluster]:
             client.wait_for_workers(1, WORKERS_S)
         except TimeoutError:
             raise StudyError(
-                f"The scheduler at {scheduler} has no worker: begin some with"
+                f"The scheduler at {scheduler} has no worker: start some with"
                 f" `dask worker {scheduler} --nthreads 1`."
             ) from None
         except OSError as error:
@@ -222,11 +222,11 @@ def _check_scheduler(address: str) -> None:
         try:
             kind = runner.run_sync(_ask_kind, address, callback_timeout=CONNECT_S)
         except OSError:
-            raise _refuse(address, "what answers there is no Dask scheduler") from None
+            raise _refuse(address, "the program there is not a Dask scheduler") from None
         finally:
             runner.stop()
         if kind != "Scheduler":
-            raise _refuse(address, f"what answers there is a {kind} of Dask")
+            raise _refuse(address, f"the program there is a {kind} of Dask")
 
 
 async def _ask_kind(address: str) -> str:

@@ -65,7 +65,7 @@ def replay_row(stored: StoredStudy, row: int) -> Replay:
     (configuration,) = build_configurations(study, study.laws[law], draw(study, index, 1))
     if configuration is None:
         raise StudyError(
-            f"Row {row} of study {stored.name} was not run: its settings do not go together."
+            f"Row {row} of study {stored.name} was not run: its settings are incompatible."
         )
     result = simulate(configuration, duration_s=study.duration_s)
     metrics = measure_samples(result, study.measure_from_s, study.duration_s)

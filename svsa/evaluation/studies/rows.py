@@ -125,7 +125,9 @@ def read_rows(stored: StoredStudy, columns: list[str] | None = None) -> pa.Table
     """
     tables = [_read_part(path, columns) for _, path in list_parts(stored)]
     if not tables:
-        raise StudyError(f"Of study {stored.name} nothing is done: `svsa study run` it first.")
+        raise StudyError(
+            f"Study {stored.name} has no finished run: start it with `svsa study run`."
+        )
     return pa.concat_tables(tables)
 
 

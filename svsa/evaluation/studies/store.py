@@ -54,15 +54,15 @@ def keep_study(name: str, study: Study, root: Path | None = None, owner: str = "
         kept = open_study(name, root)
         if kept.study.changed(runs=study.runs) != study:
             raise StudyError(
-                f"Study {name} is another one: it was begun with other settings. Give yours"
-                f" another name (--name), or delete {folder}."
+                f"Study {name} is another one: it was started with other settings. Use another"
+                f" name (--name), or delete {folder}."
             )
         if study.runs <= kept.study.runs:
             study = kept.study
         if kept.version != __version__ and find_missing(kept._replace(study=study)):
             raise StudyError(
-                f"Study {name} was begun by version {kept.version} of svsa, and this is"
-                f" {__version__}: its runs might differ. Give this one another name (--name)."
+                f"Study {name} was started by version {kept.version} of svsa, and this is"
+                f" {__version__}: its runs might differ. Use another name (--name)."
             )
         created, version, owner = kept.created, kept.version, kept.owner
     text = {"name": name, "created": created, "version": version, "owner": owner}
@@ -71,7 +71,7 @@ def keep_study(name: str, study: Study, root: Path | None = None, owner: str = "
         (folder / PARTS).mkdir(parents=True, exist_ok=True)
         replace_file(folder / STUDY_FILE, content.encode())
     except OSError as error:
-        raise StudyError(f"Study {name} cannot be kept in {folder}: {error}.") from None
+        raise StudyError(f"Study {name} cannot be saved in {folder}: {error}.") from None
     return StoredStudy(name, study, folder, created, version, owner)
 
 

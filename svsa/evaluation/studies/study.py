@@ -44,7 +44,7 @@ class Study(Checked):
         ParameterError: If a value is invalid, also in the base or in the varied settings.
     """
 
-    title: str = quantity("", "What the study is about", max_length=200)
+    title: str = quantity("", "Title of the study", max_length=200)
     base: dict[str, Any] = quantity("", "Initial settings of all runs", default={FIGURE: "4a"})
     laws: tuple[InstalledLaw, ...] = quantity(
         "",
@@ -65,7 +65,7 @@ class Study(Checked):
     metrics: tuple[Metric, ...] = quantity(
         "", "Metrics stored for each run", min_length=1, default=tuple(METRICS)
     )
-    success: Success = quantity("", "What counts as success, besides no fault", default=Success())
+    success: Success = quantity("", "Success criterion, in addition to no fault", default=Success())
 
     @model_validator(mode="after")
     def _check(self) -> Self:
@@ -200,7 +200,7 @@ def check_variation(base: Configuration, variation: Variation, name: str) -> Non
         bound = f"a setting: in place of {inner.value!r} it must be {inner.bound}"
         raise ParameterError(Violation(f"{name}.path", variation.path, "", bound)) from None
     if variation.relative and not _is_numeric(present):
-        bound = "false: what is there is no number to be a factor of"
+        bound = "false: the base value is not a number"
         raise ParameterError(Violation(f"{name}.relative", True, "", bound))
     for field, value in variation.list_tried().items():
         if variation.relative and not _is_numeric(value):

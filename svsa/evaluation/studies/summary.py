@@ -158,8 +158,8 @@ def pair_studies(first: StoredStudy, second: StoredStudy) -> list[Pairing]:
     for name in drawn:
         if getattr(first.study, name) != getattr(second.study, name):
             raise StudyError(
-                f"Studies {first.name} and {second.name} did not draw the same ({name}): their runs"
-                " are no pairs."
+                f"Studies {first.name} and {second.name} do not have the same samples ({name}):"
+                " their runs cannot be paired."
             )
     tables = read_rows(first), read_rows(second)
     laws = [law for law in first.study.laws if law in second.study.laws]
@@ -231,7 +231,7 @@ def estimate_sensitivity(study: Study, rows: pa.Table, law: str, outcome: str) -
     own = select_rows(rows, LAW, law)
     samples = 1 << max(len(own) // study.cells, 1).bit_length() - 1
     if samples * study.cells > len(own):
-        raise StudyError("There is no whole set of samples yet.")
+        raise StudyError("No complete set of samples is finished yet.")
     own = own[: samples * study.cells]
     ended = own.num_rows - own["fault"].null_count
     if outcome != SUCCEEDED and ended:
@@ -241,7 +241,7 @@ def estimate_sensitivity(study: Study, rows: pa.Table, law: str, outcome: str) -
         )
     values = own[outcome].to_numpy().astype(float).reshape(samples, study.cells).T
     if np.ptp(values) == 0.0:
-        raise StudyError(f"{outcome} is the same in every run of {law}: nothing decides it.")
+        raise StudyError(f"{outcome} is the same in every run of {law}: no setting affects it.")
     sets = {"f_A": values[:1], "f_B": values[1:2], "f_AB": values[2:, None, :]}
     from scipy.stats import sobol_indices  # imported here: the import is slow
 

@@ -38,13 +38,13 @@ def build_summary_tables(
     success.title = f"{whose}{study.title}. Success: no fault{f' and {asked}' if asked else ''}"
     for law in laws:
         faults = ", ".join(f"{count} {code}" for code, count in law.faults.items()) or "none"
-        refused = f", and {law.refused} samples refused" if law.refused else ""
+        refused = f", and {law.refused} samples rejected" if law.refused else ""
         share = format_share(law.success)
         success.add_row(get_title(law.law), str(law.runs), share, faults + refused)
     quantiles = Table("metric", "unit", title_justify="left")
     span = f"{study.measure_from_s:g}–{study.duration_s:g} s"
     of = "its" if whose else "all"
-    quantiles.title = f"{whose}5 %, 50 %, 95 % of {of} runs, {span}; fault: so many ended in one"
+    quantiles.title = f"{whose}5 %, 50 %, 95 % of {of} runs, {span}; fault: of runs with a fault"
     for law in laws:
         quantiles.add_column(get_title(law.law), justify="right")
     for name in study.metrics:
@@ -58,10 +58,10 @@ def build_pairing_table(pairing: Pairing) -> Table:
     table = Table("metric", "unit", "mean difference", "95 %", "p (Holm)", title_justify="left")
     ends = format_ends(pairing.success, lambda x: f"{100 * x:+.2f}")
     table.title = (
-        f"{pairing.one} less {pairing.other}, {pairing.pairs} samples. Success:"
+        f"{pairing.one} minus {pairing.other}, {pairing.pairs} samples. Success:"
         f" {100 * pairing.success.value:+.2f} points ({ends}), McNemar's p (Holm)"
         f" {format_p(pairing.success_p)}; only the first on {pairing.only_one}, only the second on"
-        f" {pairing.only_other}. Below: the {pairing.whole} samples on which both are whole"
+        f" {pairing.only_other}. Below: the {pairing.whole} samples without a fault"
     )
     for name, one in pairing.differences.items():
         cells = format_value(name, one.value), format_ends(one, partial(format_value, name))

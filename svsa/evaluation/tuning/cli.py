@@ -21,13 +21,13 @@ if TYPE_CHECKING:
 
 
 def tune(
-    law: Annotated[str | None, typer.Argument(help="Name of a law that is installed.")] = None,
+    law: Annotated[str | None, typer.Argument(help="Name of an installed law.")] = None,
     every: Annotated[
         bool, typer.Option("--all", help="Tune all installed laws for the ranking.")
     ] = False,
     budget: Annotated[
         int | None,
-        typer.Option(min=1, help="Candidates to be tried: 128; with --all 2000."),
+        typer.Option(min=1, help="Number of candidates: 128; with --all 2000."),
     ] = None,
     trials: Annotated[int, typer.Option(min=1, help="Training trials of each candidate.")] = 128,
     validation: Annotated[
@@ -41,7 +41,7 @@ def tune(
         typer.Option(help="NAME=VALUE: a parameter that is set and not searched."),
     ] = None,
     parameters: Annotated[
-        Path | None, typer.Option(help="Parameter file to begin from (TOML).")
+        Path | None, typer.Option(help="Parameter file with the initial parameters (TOML).")
     ] = None,
     output: Annotated[
         Path | None,
@@ -51,7 +51,7 @@ def tune(
         ),
     ] = None,
     as_json: Annotated[
-        bool, typer.Option("--json", help="Print everything that was tried as JSON, write no file.")
+        bool, typer.Option("--json", help="Print all candidates as JSON, write no file.")
     ] = False,
 ) -> None:
     """Tune a law, or all laws for the ranking. Ctrl-C ends the search and saves the best so far.

@@ -37,7 +37,7 @@ def check_bus(probe: Probe) -> CheckStep:
     """Listen only: detect error frames and other programs that command the drives."""
     traffic = probe.listen(QUIET_S)
     bus = probe.bench.bus
-    emulated = ", EMULATED: no machine is behind this bus" if probe.emulated else ""
+    emulated = ", EMULATED: this bus has no real bench" if probe.emulated else ""
     measured = (
         f"{bus.interface} {bus.channel} is open, {bus.bitrate / 1000:g} kbit/s,"
         f" {traffic.frames / QUIET_S:.0f} frames/s, {traffic.bus_errors} error frames{emulated}"
@@ -79,8 +79,7 @@ def check_drive(probe: Probe, name: str) -> CheckStep:
         return CheckStep(title, Result.FAIL, "no answer", _advise_on_silence(probe, name))
     median, worst = 1e3 * float(np.median(delays)), 1e3 * max(delays)
     measured = (
-        f"{len(delays)} of {ECHOES} questions answered, after {median:.2f} ms (worst"
-        f" {worst:.2f} ms)"
+        f"{len(delays)} of {ECHOES} queries answered, after {median:.2f} ms (worst {worst:.2f} ms)"
     )
     wiring = describe_wiring(probe.bench)
     if len(delays) < ECHOES:
@@ -130,7 +129,7 @@ def bring_up(probe: Probe) -> CheckStep:
             title,
             Result.FAIL,
             f"{' and '.join(sorted(obstinate))} did not leave its mode at the reset",
-            "Switch the drives off and on, and see that no other program uses the bus.",
+            "Switch the drives off and on, and check that no other program uses the bus.",
         )
     refused = [name for name, drive in probe.drives.items() if drive.phase is Phase.SILENT]
     if refused:

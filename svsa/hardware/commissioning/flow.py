@@ -42,8 +42,8 @@ def check_feedback(probe: Probe, traffic: Traffic) -> Iterator[CheckStep]:
             yield CheckStep(title, Result.FAIL, measured, advice)
         elif rate < MIN_SHARE * wanted or longest > safety.stale_zero_s:
             advice = (
-                "The loop would fall to zero torque in the gaps. Take other traffic off the bus,"
-                " use a quicker adapter, and leave the machine to this program."
+                "The loop would fall to zero torque in the gaps. Remove other traffic from the bus,"
+                " use a faster adapter, and run no other program on this machine."
             )
             yield CheckStep(title, Result.WARN, measured, advice)
         else:
@@ -88,7 +88,7 @@ def check_rest(probe: Probe, traffic: Traffic) -> CheckStep:
     )
     if strong:
         advice = (
-            f"The drive of {' and '.join(strong)} makes current although 0 was asked for: have the"
+            f"The drive of {' and '.join(strong)} makes current although 0 was commanded: have the"
             " maker calibrate its current measurement; do not arm."
         )
         return CheckStep("at rest", Result.FAIL, measured, advice)

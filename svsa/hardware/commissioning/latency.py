@@ -39,16 +39,16 @@ def check_latency(probe: Probe, name: str) -> CheckStep:
             title,
             Result.WARN,
             f"the current followed in {len(delays)} of {STEPS} steps of {current} mA",
-            "The drive's current loop is slow, or its measurement too coarse for so small steps:"
-            f" check {probe.families[name].advice.current}, and the supply.",
+            "The drive's current loop is slow, or its measurement too coarse for steps of this"
+            f" size: check {probe.families[name].advice.current}, and the supply.",
         )
     median, p99 = (1e3 * float(np.percentile(delays, share)) for share in (50, 99))
     measured = f"{current} mA seen after {median:.2f} ms (median), {p99:.2f} ms (99 %)"
     period_ms = 1e3 * probe.bench.timing.period_s
     if median > 3.0 * period_ms or p99 > 1e3 * probe.bench.safety.stale_zero_s:
         advice = (
-            "That is long for the control period: use a quicker adapter, or a period_s of 0.002"
-            " with gains made for it."
+            "This latency is long for the control period: use a faster adapter, or a period_s"
+            " of 0.002 with gains made for it."
         )
         return CheckStep(title, Result.WARN, measured, advice)
     return CheckStep(title, Result.OK, measured)

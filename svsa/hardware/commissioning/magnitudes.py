@@ -176,7 +176,7 @@ def _compare_stiffness(bench: BenchFile, actuator: MechanismParameters, link: Li
     title, mu = "home: lever ratio", bench.home.lever_ratio
     plant, M = build_actuator(actuator, mu), actuator.link_inertia_kg_m2
     if not link.stiffness.is_sharp or link.stiffness.value <= 0.0:
-        advice = "Free the link, take loads off it, and run the check again."
+        advice = "Free the link, remove its loads, and run the check again."
         return CheckStep(title, Result.WARN, "the link's movement shows no stiffness", advice)
     expected, measured = float(compute_stiffness_of(plant, mu, 0.0)), link.stiffness.value * M
     found = float(compute_coordinate_for_stiffness(plant, measured))

@@ -34,8 +34,8 @@ def _judge(name: str, turn: Turn, advices: Advice) -> CheckStep:
         unheard_ms, pulse_ms = 1e3 * turn.unheard_s, 1e3 * pulse.duration_s
         measured += f", no feedback for {unheard_ms:.0f} of {pulse_ms:.0f} ms"
         advice = (
-            "The pulses could not be followed: leave the machine to this program, take other"
-            " traffic off the bus, and run the check again."
+            "The pulses could not be followed: run no other program on this machine,"
+            " remove other traffic from the bus, and run the check again."
         )
         return CheckStep(title, Result.FAIL, measured, advice)
     if abs(pulse.moved) < MIN_COUNTS:

@@ -204,13 +204,13 @@ class Probe:
         try:
             yield
         except (can.CanError, OSError) as error:
-            raise BusError(f"The CAN bus takes no frames: {error}.") from None
+            raise BusError(f"The CAN bus accepts no frames: {error}.") from None
 
     def _receive(self, timeout_s: float) -> can.Message | None:
         try:
             return self._get_bus().recv(timeout_s)
         except (can.CanError, OSError) as error:
-            raise BusError(f"The CAN bus is gone: {error}.") from None
+            raise BusError(f"The CAN bus is lost: {error}.") from None
 
     def _take(self, message: can.Message, traffic: Traffic) -> None:
         now = self.now()

@@ -30,8 +30,8 @@ _DRIVERS = {
     "neovi": "`pip install 'python-can[neovi]'`",
     "canalystii": "`pip install 'python-can[canalystii]'`",
     "cantact": "`pip install 'python-can[cantact]'`",
-    "ixxat": "HMS' VCI driver; it is there for Windows only",
-    "vector": "Vector's XL driver library; it is there for Windows only",
+    "ixxat": "HMS' VCI driver; it exists for Windows only",
+    "vector": "Vector's XL driver library; it exists for Windows only",
 }
 """Package to install if python-can has an interface without its driver."""
 BUS_TROUBLE = (can.CanError, OSError, ValueError)

@@ -36,9 +36,7 @@ class EmulatedMotor(EmulatorClock):
     torque_constant_nm_per_a: Number = quantity("N·m/A", "K_t of the winding", gt=0, le=10)
     efficiency: Number = quantity("1", "η of the gearbox", gt=0, le=1, default=0.9)
     sign: Sign = quantity("", "1 where positive current grows angle and counts", default=1)
-    peak_current_a: Number = quantity(
-        "A", "Current the drive gives at most", gt=0, le=32, default=15
-    )
+    peak_current_a: Number = quantity("A", "Largest current of the drive", gt=0, le=32, default=15)
 
     @property
     def torque_nm_per_a(self) -> float:

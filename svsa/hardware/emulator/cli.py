@@ -28,7 +28,9 @@ def emulator(
     ] = None,
     file: Annotated[
         Path | None,
-        typer.Option(help="What the emulator is made of (TOML); else the actuator's prototype."),
+        typer.Option(
+            help="Parameters of the emulator (TOML); by default the actuator's prototype."
+        ),
     ] = None,
     write_bench: Annotated[
         Path | None,
@@ -38,7 +40,10 @@ def emulator(
         ),
     ] = None,
     idle_s: Annotated[
-        float, typer.Option(min=0, help="End after so long without a client; 0: never.")
+        float,
+        typer.Option(
+            min=0, help="Time without a client after which the emulator ends, s; 0: never."
+        ),
     ] = 0.0,
     alone_s: Annotated[
         float,

@@ -133,7 +133,7 @@ class Mechanics:
             StateError: If there are too many loads.
         """
         if self.load_count >= MAX_LOADS:
-            raise StateError(f"{MAX_LOADS} loads are on the emulator: take some off first.")
+            raise StateError(f"{MAX_LOADS} loads act on the emulator: remove some first.")
         now = max(self._tick, -(-time_us // GRID_US))
         self._load_count += 1
         loads = [*self._loads, schedule_load(self._load_count, load, now, _PERIOD_S)]

@@ -42,9 +42,7 @@ class EmulatedDeflection(EmulatorClock):
     can_id: Whole = quantity("", "Its standard identifier", ge=0, le=0x7FF, default=0x700)
     counts_per_rev: Whole = quantity("1", "Counts a turn", ge=4, le=10**8, default=8000)
     sign: Sign = quantity("", "1 where counts grow with φ = q − θ1", default=1)
-    offset_counts: Whole = quantity(
-        "counts", "What it counts at φ = 0", ge=-(2**30), le=2**30, default=0
-    )
+    offset_counts: Whole = quantity("counts", "Counts at φ = 0", ge=-(2**30), le=2**30, default=0)
 
 
 Given = Mapping[str, Any]
@@ -169,7 +167,7 @@ class EmulatorParameters(Checked):
         json_schema_extra={"unit": ""},
     )
     gravity: LinkGravity | None = quantity("", "Weight of the link", default=None)
-    seed: Whole = quantity("", "Seed of what is random in faults", ge=0, le=2**31, default=0)
+    seed: Whole = quantity("", "Seed of the random numbers of faults", ge=0, le=2**31, default=0)
 
     @model_validator(mode="after")
     def _check(self) -> Self:

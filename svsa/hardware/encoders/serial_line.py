@@ -69,7 +69,7 @@ class SerialLine:
         try:
             self._unread += self._line.read(4096)
         except (serial.SerialException, OSError) as error:
-            raise EncoderError(f"The deflection encoder's serial line is gone: {error}.") from None
+            raise EncoderError(f"The deflection encoder's serial line is lost: {error}.") from None
         counts = self._take_word() if self._settings.binary else self._take_line()
         if counts is not None:
             self._newest = (counts, now_s)

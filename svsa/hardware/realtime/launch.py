@@ -199,8 +199,8 @@ class BenchProcesses:
     def _describe_silence(self) -> str:
         what = "is silent" if self.alive else "is gone"
         return (
-            f"The loop of the bench {what} since {self.silence_s:.1f} s: nothing can be asked of"
-            " it. Restart it."
+            f"The loop of the bench {what} since {self.silence_s:.1f} s: it accepts no"
+            " requests. Restart it."
         )
 
     def _send(self, wanted: str, argument: Any, until: float) -> int:

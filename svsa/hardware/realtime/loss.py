@@ -10,9 +10,9 @@ SUPERVISED_S = 0.5
 STOPPING_S = 0.1
 
 _WHAT = {
-    "loop_silent": "The control loop stands still: its process is there, and does not tick.",
+    "loop_silent": "The control loop is stopped: its process runs, but does not tick.",
     "loop_lost": "The process of the control loop has ended.",
-    "loop_and_supervisor_lost": "The processes of control loop and supervisor are both gone.",
+    "loop_and_supervisor_lost": "The processes of control loop and supervisor have both ended.",
 }
 
 
@@ -55,7 +55,7 @@ def find_loss(processes: BenchProcesses) -> Loss | None:
     if problem is not None:
         done = (
             "The server cannot reach the drives, which may hold their last current indefinitely:"
-            f" pull the motors' supply. {problem}"
+            f" disconnect the motors' supply. {problem}"
         )
     elif after_s is not None:
         stopped_by = "server"
@@ -64,7 +64,7 @@ def find_loss(processes: BenchProcesses) -> Loss | None:
             " after the loop's last tick, and resets them."
         )
     elif ended_in_order:
-        done = "It ended in order and left both drives at zero current."
+        done = "It ended regularly and left both drives at zero current."
     elif processes.beats.age_s("stopping") < STOPPING_S:
         stopped_by = "supervisor"
         done = "The supervisor keeps both drives at zero current and resets them."

@@ -123,7 +123,7 @@ class LoopProcess:
             self._stop("the server is gone")
         is_silent = self._beats.age_s("server") > self._server_s
         if self._plant.status is BenchStatus.RUN and is_silent:
-            self._stop("the server has not been heard of")
+            self._stop("the server is silent")
 
     def _stop(self, reason: str) -> None:
         if self._plant.status in MOVING:
@@ -132,7 +132,7 @@ class LoopProcess:
     def _answer(self, message: dict[str, Any]) -> dict[str, Any]:
         try:
             if time.monotonic() > message["until"]:
-                raise SvsaError("The command came too late, and was not carried out.")
+                raise SvsaError("The command arrived too late and was not executed.")
             return self._do(message["do"], message.get("argument"))
         except ParameterError as error:
             # A rejected value may be an object that JSON cannot represent.

@@ -134,7 +134,7 @@ class MotorGuard:
         heat = self.winding.heat
         if heat <= OVERLOAD:
             return None
-        words = f"{self._title} is too warm: its heat (I²t, 1 is what its winding bears) was"
+        words = f"{self._title} is too warm: its heat (I²t, 1 is the limit of its winding) was"
         return _exceeded("overload", words, f"{self.name}_heat", heat, OVERLOAD, "")
 
     def explain(self, alarm: Alarm) -> Alarm:
@@ -280,9 +280,9 @@ class Guard:
             return None
         name, velocity = ("motor1", velocity1) if shakes1 else ("motor2", velocity2)
         words = (
-            f"{AXIS_WORDS[name].capitalize()} shakes: it turned around {REVERSALS} times within"
-            f" {WINDOW_S:g} s. The loop is unstable: an encoder stands still or counts the wrong"
-            " way, feedback comes late, or the gains are too high."
+            f"{AXIS_WORDS[name].capitalize()} oscillates: it reversed {REVERSALS} times within"
+            f" {WINDOW_S:g} s. The loop is unstable: an encoder is frozen or counts in the wrong"
+            " direction, feedback is late, or the gains are too high."
         )
         return Alarm("vibration", words, {f"{name}_velocity_rad_per_s": velocity})
 
@@ -291,7 +291,8 @@ class Guard:
         for name, value in zip(("link", "motor1", "motor2"), estimate, strict=True):
             if abs(value) > most:
                 words = (
-                    f"The observer sees a torque on {AXIS_WORDS[name]} that no load makes: it was"
+                    f"The observer estimates a torque on {AXIS_WORDS[name]} that no load"
+                    " makes: it was"
                 )
                 return _exceeded("implausible", words, f"estimate_{name}_nm", value, most, "N·m")
         return None

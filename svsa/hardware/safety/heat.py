@@ -92,15 +92,13 @@ class HeatReductionState:
 
 
 def describe_heat_reduction(name: str, held: HeatReduction, winding: Winding) -> str:
-    """Describe a reduction by heat, as the first sentence of a later fault; `name` is that of the
-    axis.
-    """
+    """Describe a reduction by heat, for the text of a later fault; `name` is that of the axis."""
     motor = AXIS_WORDS[name]
     return (
         f"{motor.capitalize()} was held back by heat: its winding had {100.0 * winding.heat:.0f} %"
-        f" of the heat that it bears, and gave {held.allowed_nm:.3g} N·m at most where"
-        f" {held.commanded_nm:.3g} N·m were asked for ({winding.lasting_nm:.3g} N·m is what it"
-        " bears indefinitely)."
+        f" of its heat limit. It was limited to {held.allowed_nm:.3g} N·m, and"
+        f" {held.commanded_nm:.3g} N·m were commanded (continuous rating:"
+        f" {winding.lasting_nm:.3g} N·m)."
     )
 
 

@@ -245,7 +245,10 @@ def _describe_lateness(late_s: float, waits_s: float) -> Alarm:
 
 def _describe_lost_supervisor(age_s: float) -> Alarm:
     if math.isinf(age_s):
-        words = "There is no supervisor: its process has ended, or has not heard the bus yet."
+        words = (
+            "There is no supervisor: its process has ended, or has not received a frame of"
+            " the bus yet."
+        )
         return Alarm("supervisor_lost", words, {})
     words = f"The supervisor has been silent for {age_s:.3f} s."
     return Alarm("supervisor_lost", words, {"supervisor_age_s": age_s})

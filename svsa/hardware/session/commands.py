@@ -67,7 +67,7 @@ class BenchCommands:
         while self.is_pending:
             if time.monotonic() > end:
                 raise StateError(
-                    f"The change was not made: the loop of the bench has {self._pending} earlier"
+                    f"The change was not applied: the loop of the bench has {self._pending} earlier"
                     f" changes to answer, for more than {LONGEST_CHANGES_S:g} s. Send it again."
                 )
             self._rest(CHANGING_S)

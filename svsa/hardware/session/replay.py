@@ -54,8 +54,8 @@ class Verified(NamedTuple):
         return (
             f"Recorded on {what}, which cannot be run again. From the angles measured and the"
             f" torques sent in its {self.ticks} samples{late} references, observer, estimate and"
-            f" errors were worked out again{with_lane}: the same, bit for bit. The torques sent are"
-            f" those that its law asks for, to a step of the drives, in"
+            f" errors were computed again{with_lane}: the same, bit for bit. The torques sent are"
+            f" those that its law commands, to a step of the drives, in"
             f" {100.0 * self.share_as_limited:.1f} % of the samples, and never beyond them."
         )
 

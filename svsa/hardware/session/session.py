@@ -210,7 +210,9 @@ class BenchSession:
         """Check as `Session.prepare_recording`, once it is known whether the bench is emulated."""
         self.loop.check_started()
         if self.emulated is None:
-            raise StateError("It is not known yet whether the bench is emulated: ask again.")
+            raise StateError(
+                "It is not known yet whether the bench is emulated: repeat the request."
+            )
         self.journal.check_recordable()
         if not self._is_moving() and self.run.tick:
             self.reset()
@@ -230,7 +232,7 @@ class BenchSession:
             StateError: Unless READY, homed and watched.
         """
         if self.bench.safety.needs_watcher and not self.watched:
-            raise StateError("No client watches this bench: open the page or a stream of it first.")
+            raise StateError("No client watches this bench: open its page or a stream first.")
         answer = self._ask("start")
         start = Start(answer["mu0"], State(*answer["x"]))
         recorder = self.journal.recorder
@@ -270,7 +272,7 @@ class BenchSession:
 
     def step(self, ticks: int) -> None:
         """Raise `StateError`: a bench has no single ticks."""
-        raise StateError("A bench runs in real time: it cannot go by single ticks.")
+        raise StateError("A bench runs in real time: it cannot advance by single ticks.")
 
     def set_speed(self, factor: float) -> None:
         """Raise `StateError`: a bench runs in real time."""

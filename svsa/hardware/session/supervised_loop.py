@@ -118,7 +118,7 @@ class SupervisedLoop:
         if self.starting:
             raise StateError(
                 f"The bench is being started ({self.processes.step},"
-                f" {self.processes.age_s:.0f} s): ask again when it is ready."
+                f" {self.processes.age_s:.0f} s): repeat the request when it is ready."
             )
 
     def ask(self, wanted: str, argument: object = None) -> dict[str, Any]:

@@ -199,7 +199,7 @@ def test_scenario_is_saved_under_a_unique_name(monkeypatch, tmp_path):
     path = keep_scenario("mine", scenario)
     assert keep_scenario("mine", scenario) == path, "the same again is no other one"
     assert open_scenario("mine") == open_scenario(str(file)) == scenario
-    with pytest.raises(ParameterError, match="free: another scenario is kept by it"):
+    with pytest.raises(ParameterError, match="a free name: another scenario has it"):
         keep_scenario("mine", scenario.changed(duration_s=2.0))
     path.with_name("broken.toml").write_text("title = 3")
     assert list_scenarios() == {"mine": scenario}
@@ -208,7 +208,7 @@ def test_scenario_is_saved_under_a_unique_name(monkeypatch, tmp_path):
     for name in ("../mine", "", "a b"):
         with pytest.raises(ParameterError, match="1 to 64 letters"):
             keep_scenario(name, scenario)
-    with pytest.raises(ParameterError, match="kept by its name: mine"):
+    with pytest.raises(ParameterError, match="the name of a saved one: mine"):
         open_scenario("missing")
     assert forget_scenario("mine")
     assert not forget_scenario("mine")

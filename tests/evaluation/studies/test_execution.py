@@ -91,7 +91,7 @@ def test_extended_study_continues_after_the_existing_rows(tmp_path):
     run_whole(tmp_path / "a", runs=24)
     grown, whole = run_whole(tmp_path / "a", runs=40), run_whole(tmp_path / "b", runs=40)
     assert read_rows(grown).to_pandas().equals(read_rows(whole).to_pandas())  # equal NaN
-    with pytest.raises(StudyError, match=r"begun with other settings.*--name"):
+    with pytest.raises(StudyError, match=r"started with other settings.*--name"):
         keep_study("one", build_study(seed=6), tmp_path / "a")
 
 
@@ -99,7 +99,7 @@ def test_study_of_another_version_is_not_mixed_with_new_runs(tmp_path, monkeypat
     run_whole(tmp_path, runs=8)
     monkeypatch.setattr("svsa.evaluation.studies.store.__version__", "99.0")
     assert keep_study("one", build_study(runs=8), tmp_path).study.runs == 8
-    with pytest.raises(StudyError, match=r"begun by version .* and this is 99\.0"):
+    with pytest.raises(StudyError, match=r"started by version .* and this is 99\.0"):
         keep_study("one", build_study(runs=9), tmp_path)
 
 

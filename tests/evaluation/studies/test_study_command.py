@@ -116,9 +116,9 @@ def test_laws_are_compared_on_the_same_samples_and_studies_with_equal_samples(da
     assert pairing["success"]["low"] < pairing["success"]["value"] < pairing["success"]["high"]
     both = json.loads(run("compare", "one", "two", "--json"))["pairings"]
     assert [one["one"] for one in both] == ["ndobc in one", "fl in one"]
-    assert "ndobc less fl" in run("compare", "one")
+    assert "ndobc minus fl" in run("compare", "one")
     keep_study("three", build_study(seed=9))
-    with pytest.raises(StudyError, match=r"did not draw the same \(seed\)"):
+    with pytest.raises(StudyError, match=r"do not have the same samples \(seed\)"):
         run("compare", "one", "three")
 
 

@@ -162,7 +162,7 @@ def test_sobol_intervals_are_upper_bounds():
 def test_undefined_indices_are_rejected():
     study = build_study(vary=ISHIGAMI, sampling="sensitivity", runs=2, laws=("ndobc",))
     same = build_rows(study, [{"rms_position_error_rad": 1.0}] * 10)
-    with pytest.raises(StudyError, match="nothing decides it"):
+    with pytest.raises(StudyError, match="no setting affects it"):
         estimate_sensitivity(study, same, "ndobc", "rms_position_error_rad")
     faults = build_rows(study, [{"fault": "lever_end", "succeeded": False}] * 10)
     with pytest.raises(StudyError, match="10 of 10 runs of ndobc ended in a fault"):

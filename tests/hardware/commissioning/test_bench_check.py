@@ -117,7 +117,7 @@ def test_repeated_scheduling_delays_are_reported_as_a_problem_of_the_computer(pa
     bus.before_send = sleep
     step = check(path, bus, move=True)["motor2: motion"]
     assert step.result is Result.FAIL
-    assert "leave the machine to this program" in step.advice
+    assert "run no other program on this machine" in step.advice
     assert sum(address.number == 2 and mA != 0 for _, address, mA in list_currents(bus)) == 12
 
 

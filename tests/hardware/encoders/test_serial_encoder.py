@@ -130,7 +130,7 @@ def test_disconnected_device_is_an_error():
     line = open_serial(device)
     device.close()
     end = time.monotonic() + LONGEST_S
-    with pytest.raises(EncoderError, match="is gone"):
+    with pytest.raises(EncoderError, match="is lost"):
         while time.monotonic() < end:
             line.read(0.0)
     line.close()

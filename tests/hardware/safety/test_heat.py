@@ -70,8 +70,11 @@ def test_fault_during_a_heat_limit_reports_the_heat_first() -> None:
     warm = guard.check(Torque(0.0, TORQUE_NM), AT_ITS_END, UNDISTURBED)
     assert warm is not None
     assert warm.code == cold.code
-    assert warm.message.startswith("Motor 2 was held back by heat: its winding had 100 % of the")
-    assert "gave 1.22 N·m at most where 2 N·m were asked for (1.22 N·m is what" in warm.message
+    assert warm.message.startswith("Motor 2 was held back by heat: its winding had 100 % of its")
+    assert (
+        "limited to 1.22 N·m, and 2 N·m were commanded (continuous rating: 1.22 N·m)"
+        in warm.message
+    )
     assert warm.message.endswith(cold.message)
     heat, asked, held = (
         warm.values[name] for name in ("motor2_heat", "motor2_commanded_nm", "motor2_held_to_nm")

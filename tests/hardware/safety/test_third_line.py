@@ -141,7 +141,7 @@ def test_failed_opening_of_the_bus_is_reported_and_repeated(watched: Watched) ->
     wait_until(lambda: watched.line.intervention is not None)
     loss = watched.find_loss()
     assert loss.stopped_by is None
-    assert "pull the motors' supply. The adapter is held." in loss.message
+    assert "disconnect the motors' supply. The adapter is held." in loss.message
     watched.refusals = 0
     wait_until(lambda: watched.bus.sent)
     wait_until(lambda: watched.find_loss().stopped_by == "server")
@@ -156,7 +156,7 @@ def test_loop_that_ended_regularly_is_lost_and_leaves_nothing(watched: Watched) 
     watched.supervisor.kill()
     loss = watched.find_loss()
     assert (loss.code, loss.stopped_by) == ("loop_lost", None)
-    assert "in order" in loss.message
+    assert "regularly" in loss.message
     assert "not stopped" not in loss.message
 
 

@@ -218,7 +218,7 @@ def test_full_class_accepts_no_more_users(tmp_path: Path, monkeypatch: pytest.Mo
     monkeypatch.setattr(memberships, "MAX_MEMBERS", 1)
     members = Memberships(tmp_path / FILE)
     members.keep(Membership(ADA))
-    with pytest.raises(StateError, match="1 people have joined, which is all"):
+    with pytest.raises(StateError, match="1 people have joined, the maximum"):
         members.keep(Membership(ADA._replace(id="p-2")))
     members.set_ended(ADA.id, True)
     assert [one.name for one in Memberships(tmp_path / FILE).list_ended()] == ["Ada"]

@@ -68,7 +68,7 @@ def test_server_answers_while_its_first_worker_starts(work, monkeypatch):
 
 def test_ended_lab_starts_no_job(work):
     work.close()
-    with pytest.raises(BusyError, match="is ending"):
+    with pytest.raises(BusyError, match="is shutting down"):
         asyncio.run(work.run(get_process))
 
 

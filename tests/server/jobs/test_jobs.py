@@ -143,10 +143,10 @@ def test_jobs_of_a_class_alternate_by_user_with_priority_of_the_instructor():
     async def share(jobs):
         first = jobs.start("study", "a1", count, 10**6, "a")
         second = jobs.start("study", "a2", count, 3, "a")
-        with pytest.raises(TooManyError, match="2 studies of yours run or wait"):
+        with pytest.raises(TooManyError, match="2 of your studies run or wait"):
             jobs.start("study", "a3", count, 3, "a")
         other = jobs.start("study", "b1", count, 3, "b")
-        with pytest.raises(BusyError, match="this lab takes 3 at once"):
+        with pytest.raises(BusyError, match="this lab accepts 3 at once"):
             jobs.start("study", "c1", count, 3, "c")
         own = jobs.start("study", "instructor's", count, 3, INSTRUCTOR.id)
         await wait_until(lambda: first.progress.done)

@@ -67,7 +67,7 @@ def test_scenario_is_saved_read_and_deleted_under_a_unique_name(lab):
     assert tomllib.loads(file.text) == kept["scenario"]
     other = lab.put(f"{SCENARIOS}/impulse", json=IMPULSE | {"duration_s": 3.0})
     assert other.status_code == 422
-    assert "another scenario is kept by it" in other.json()["detail"]
+    assert "another scenario has it" in other.json()["detail"]
     assert lab.delete(f"{SCENARIOS}/impulse").status_code == 204
     for call in (lab.get, lab.delete):
         assert call(f"{SCENARIOS}/impulse").status_code == 404

@@ -130,8 +130,8 @@ async def renew_rejoin_code(request: Request, person: NamedPerson) -> RejoinCode
     code = await find_class(request).renew_rejoin_code(person)
     if code is None:
         raise StateError(
-            "A rejoin code is for who has joined: the instructor comes back with the token, and a"
-            " script that may do less than its maker with its own."
+            "Only a user who has joined can get a rejoin code. The instructor logs in with the"
+            " token, a script with its own token."
         )
     return RejoinCode(rejoin_code=code)
 

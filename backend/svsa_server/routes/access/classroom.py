@@ -145,7 +145,7 @@ def find_class(request: Request) -> ClassAuthentication:
     """
     authentication = request.app.state.authentication
     if not isinstance(authentication, ClassAuthentication):
-        raise StateError("This lab is no class: it cannot be joined, and it has no members.")
+        raise StateError("This lab is not a class: it has no members, and users cannot join.")
     return authentication
 
 

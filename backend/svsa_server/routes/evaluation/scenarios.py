@@ -107,4 +107,4 @@ def _open(name: str) -> LoadScenario:
 
 
 def _refuse(name: str) -> UnknownError:
-    return UnknownError(f"No scenario is kept as {name} here; GET /scenarios has those there are.")
+    return UnknownError(f"No scenario is saved as {name} here; GET /scenarios lists them.")

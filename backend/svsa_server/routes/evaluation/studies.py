@@ -221,9 +221,7 @@ def _send_table(study: str, stored: StoredStudy) -> FileResponse:
 
 def _open(name: str) -> StoredStudy:
     if "/" in name or "\\" in name or not (is_kept(name) or name == EXAMPLE):
-        raise UnknownError(
-            f"There is no study {name[:80]!r} here; GET /studies has those there are."
-        )
+        raise UnknownError(f"There is no study {name[:80]!r} here; GET /studies lists them.")
     return open_study(name)
 
 

@@ -81,5 +81,5 @@ async def predict_heat(
 
 def _find_bench(session: Session) -> BenchSession:
     if not isinstance(session, BenchSession):
-        raise StateError(f"Session {session.name} is simulated: there is no bench behind it.")
+        raise StateError(f"Session {session.name} is simulated: it has no bench.")
     return session

@@ -35,7 +35,7 @@ async def take_control(
     control is passed.
     """
     if client is None:
-        raise ParameterError(Violation(CLIENT_HEADER, None, "", "given, to know you again"))
+        raise ParameterError(Violation(CLIENT_HEADER, None, "", "given: it identifies the client"))
     hosted.take_control(Holder(client, person.name or request.by), request.take_over)
     return build_state(hosted)
 

@@ -125,7 +125,7 @@ def check_experiment(
     found = _find_exercise(request, exercise)
     asked = found.find_step(step)
     if not isinstance(asked, Experiment):
-        raise StateError(f"Step {step!r} is no experiment: no run is judged there.")
+        raise StateError(f"Step {step!r} is not an experiment: it has no run to assess.")
     result = _open_own(runs, person, wanted.run_id)
     judged: list[CriterionResult] = []
 

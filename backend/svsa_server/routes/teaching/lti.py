@@ -127,4 +127,4 @@ def _refuse(request: Request, error: LaunchError) -> Response:
         action="lti launch", person=None, name=None, role=None, platform=None, place=None,
         problem=str(error)[:500],
     )  # fmt: skip
-    return PlainTextResponse(f"This launch was refused. {error}\n", 401)
+    return PlainTextResponse(f"This launch was rejected. {error}\n", 401)

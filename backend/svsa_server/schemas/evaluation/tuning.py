@@ -21,7 +21,7 @@ class TuningRequest(Checked):
     """A law to be tuned on the training trials."""
 
     kind: Literal["tuning"] = quantity("", "Search by CMA-ES, on training trials")
-    law: InstalledLaw = quantity("", "Name of a law that is installed")
+    law: InstalledLaw = quantity("", "Name of an installed law")
     budget: Whole = quantity(
         "", "Number of candidates to evaluate", ge=1, le=MAX_BUDGET, default=BUDGET
     )

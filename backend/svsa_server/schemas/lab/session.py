@@ -39,9 +39,7 @@ class FigureRequest(Checked):
     """One of the paper's figures, optionally with other lanes and effects."""
 
     figure: Literal["4a", "4b", "5"] = quantity("", "Figure of the paper")
-    law: InstalledLaw = quantity(
-        "", "Name of a law that is installed: see GET /laws", default=PAPERS_LAW
-    )
+    law: InstalledLaw = quantity("", "Name of an installed law: see GET /laws", default=PAPERS_LAW)
     load: Flag = quantity("", "With the paper's 3 kg load at 5 s", default=True)
     comparisons: tuple[InstalledLane, ...] = quantity(
         "", "Comparison lanes, up to three", max_length=MAX_LANES - 1, default=()

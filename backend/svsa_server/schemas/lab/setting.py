@@ -26,7 +26,7 @@ LONGEST_PARAMETER_FILE = 100_000
 class LawRequest(Checked):
     """The law of lane 1, and those of the comparison lanes; every plant keeps its state."""
 
-    law: InstalledLaw = quantity("", "Name of a law that is installed: see GET /laws")
+    law: InstalledLaw = quantity("", "Name of an installed law: see GET /laws")
     comparison_laws: tuple[InstalledLaw, ...] = quantity(
         "",
         "Laws of the comparison lanes in order; lanes left out keep theirs",

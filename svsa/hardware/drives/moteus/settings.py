@@ -22,7 +22,11 @@ class MoteusSettings(MotorSettings):
 
     id: Whole = quantity("", _ID, ge=1, le=127)
     watchdog_s: Number = quantity(
-        "s", "Without a command for so long, the controller times out", ge=0.02, le=1, default=0.1
+        "s",
+        "Time without a command after which the controller times out",
+        ge=0.02,
+        le=1,
+        default=0.1,
     )
     counts_per_rev: Whole | None = quantity(
         "1",
