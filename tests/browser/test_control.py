@@ -180,7 +180,7 @@ def test_bench_runs_only_while_the_switch_is_held(context: BrowserContext, bench
     expect(find_run(page)).to_be_disabled()
 
     assert any(hold_through(page, bench) for _ in range(ATTEMPTS))
-    expect(row).to_contain_text("Running. On release")
+    expect(row).to_contain_text("Running. If you release it")
     page.mouse.up()
     expect(row).to_contain_text("Not held")
     bench.wait_for("ready")

@@ -120,7 +120,7 @@ def test_tour_points_at_existing_elements(flat: Page, lab: Lab, width: int, heig
     flat.goto(lab.url)
     tour = flat.get_by_role("region", name="Tour of the lab")
     tour.get_by_role("button", name="Take the tour").click()
-    expect(tour).to_contain_text("The thick line is the link, seen from the front")
+    expect(tour).to_contain_text("The thick line is the link from the front")
     ring = flat.locator(".tour-ring")
 
     def is_around_the_picture() -> bool:
