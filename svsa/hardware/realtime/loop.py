@@ -158,7 +158,7 @@ class BenchLoop:
         known = State(*self._known.tolist())
         if self._is_known and abs(known.q) > FARTHEST_RAD:
             raise StateError(
-                f"The link stands {known.q:.1f} rad from its mark, and a run begins at most"
+                f"The link is {known.q:.1f} rad from its mark, and a run begins at most"
                 f" {FARTHEST_RAD:.1f} rad from it: remove every hanging load, press Quick stop,"
                 " clear"
                 " the fault, set the bench to its marks, and arm it."
