@@ -53,7 +53,7 @@ def test_lanes_of_the_c_loop_are_equal(c_loop: benchmark.CLoop, loop_samples: np
 
 @pytest.mark.exhaustive
 def test_command_prints_costs_and_ratios_to_c(c_loop: benchmark.CLoop) -> None:
-    answer = RUNNER.invoke(app, ["benchmark", "--json", "--repeats", "1", "--no-start"])
+    answer = RUNNER.invoke(app, ["benchmark", "--json", "--repeats", "3", "--no-start"])
     assert answer.exit_code == 0, answer.output
     costs = json.loads(answer.stdout)
     numbers = (
