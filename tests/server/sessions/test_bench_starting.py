@@ -42,7 +42,9 @@ def starting(monkeypatch: pytest.MonkeyPatch) -> Iterator[BenchSession]:
 
 @pytest.mark.parametrize("name", COMMANDS)
 def test_starting_bench_takes_no_command_and_states_why(starting: BenchSession, name: str) -> None:
-    with pytest.raises(StateError, match=r"being started \(compiling .*, 12 s\): repeat the request when"):
+    with pytest.raises(
+        StateError, match=r"being started \(compiling .*, 12 s\): repeat the request when"
+    ):
         COMMANDS[name](starting)
     starting.open()
     assert isinstance(starting.loop.processes, Processes)
