@@ -98,7 +98,11 @@ def _load_law(name: str) -> Law | str:
         reported = f"{type(error).__name__}: {error}"
         return f"The law {name} of the package {package} does not load: {reported}"
     if not isinstance(law, Law) or law.name != name:
-        found = f"the law {law.name}" if isinstance(law, Law) else f"a {type(law).__name__}"
+        found = (
+            f"the law {law.name}"
+            if isinstance(law, Law)
+            else f"an object of type {type(law).__name__}"
+        )
         return f"The package {package} declares the law {name}, but contains {found}."
     return law
 

@@ -225,8 +225,8 @@ def test_parameters_are_validated_by_their_law_and_stored_unchanged():
     ("value", "words"),
     [
         ("missing", "does not load: AttributeError"),
-        ("TICKS", "brings a int"),
-        ("WATCH", "brings the law watch"),
+        ("TICKS", "contains an object of type int"),
+        ("WATCH", "contains the law watch"),
     ],
 )
 def test_broken_package_is_named_and_the_lab_continues(install, value, words):
