@@ -3,11 +3,13 @@
 import math
 from collections.abc import Iterable, Sequence
 
+import numpy as np
+
 from svsa.runs.command import Command
 from svsa.runs.configuration import Configuration
 from svsa.runs.replay import list_load_changes
 from svsa.simulation.plant.loads import Load
-from svsa.simulation.plant.loads.tip import TipForce, TipImpulse, TipPush
+from svsa.simulation.plant.loads.tip import DAMPING, FORCE_X, FORCE_Y, AnyTipLoad
 from svsa.simulation.plant.loads.tip import Wall as WallLoad
 from svsa_scene.arm_pose import TipLoad, Wall
 
@@ -15,7 +17,7 @@ from svsa_scene.arm_pose import TipLoad, Wall
 def sum_tip_loads(loads: Iterable[Load]) -> TipLoad:
     """Sum the loads that act at one instant; of several walls, the first."""
     acting = list(loads)
-    forces = [force for load in acting if (force := _find_force(load)) is not None]
+    forces = [_compute_force(load) for load in acting]
     walls = [one for one in acting if isinstance(one, WallLoad)]
     return TipLoad(
         mass_kg=sum(load.get_hung_mass() for load in acting),
@@ -50,13 +52,10 @@ def trace_tip_loads(
     return found
 
 
-def _find_force(load: Load) -> tuple[float, float] | None:
-    """The force of a load at the tip, N; None for another load."""
-    match load:
-        case TipForce() | TipPush():
-            return load.force_n
-        case TipImpulse():
-            x, y = load.impulse_ns
-            return x / load.DURATION_S, y / load.DURATION_S
-        case _:
-            return None
+def _compute_force(load: Load) -> tuple[float, float]:
+    """The force of a load at the tip, N; zero for a load on a joint."""
+    row = np.zeros(DAMPING + 1)
+    if isinstance(load, AnyTipLoad):
+        load.fill_tip(row, load.get_duration())
+    x, y = row[FORCE_X : FORCE_Y + 1].tolist()
+    return x, y

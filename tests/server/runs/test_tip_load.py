@@ -2,11 +2,13 @@
 
 import math
 
+import pytest
+
 import svsa
 from svsa.runs.arm.experiment import build_arm_experiment
 from svsa.runs.command import ApplyLoad, RemoveLoad
 from svsa_scene.arm_pose import TipLoad, Wall
-from svsa_server.runs.tip_load import trace_tip_loads
+from svsa_server.runs.tip_load import sum_tip_loads, trace_tip_loads
 
 WALL = svsa.Wall(normal_rad=math.pi, distance_m=-0.55, stiffness_n_per_m=500.0)
 BEHIND = Wall(math.pi, -0.55)
@@ -37,3 +39,9 @@ def test_loads_at_the_tip_change_when_they_begin_end_and_are_sent_again() -> Non
         (550, hung),
         (650, TipLoad(0.2)),
     ]
+
+
+def test_impulse_is_drawn_as_the_force_that_acts() -> None:
+    impulse = svsa.TipImpulse(impulse_ns=(0.01, -0.02))
+    assert sum_tip_loads([impulse]).force_n == pytest.approx((2.0, -4.0))
+    assert sum_tip_loads([svsa.PushLoad(torque_nm=(1.0, 0.0, 0.0))]) == TipLoad()
