@@ -57,7 +57,7 @@ def follow_loads(
 def trace_loads(
     planned: Iterable[Load], changes: Iterable[tuple[int, Load | int]], period: float
 ) -> Iterator[tuple[int, Loads]]:
-    """List the loads after each change; see `follow_loads`. A push has its values until then.
+    """List the loads of a run after each change, each push with the values that it had then.
 
     Args:
         planned: Loads of the configuration.

@@ -53,7 +53,7 @@ def trace_tip_loads(
 
 
 def _compute_force(load: Load) -> tuple[float, float]:
-    """The force of a load at the tip, N; zero for a load on a joint."""
+    """Compute the force of a load at the tip, N; zero for a load on a joint."""
     row = np.zeros(DAMPING + 1)
     if isinstance(load, AnyTipLoad):
         load.fill_tip(row, load.get_duration())

@@ -50,7 +50,7 @@ class TipLoads:
         )
 
     def show(self, tip: tuple[float, float], load: TipLoad) -> None:
-        """Every load at the tip, (x, y) in scene units."""
+        """Draw the loads at the tip; `tip` is (x, y) in scene units."""
         x, y = tip
         self._show_mass((-y, x, solids.TIP_Z + 0.25), load.mass_kg)
         self._show_force((-y, x, solids.TIP_Z + 0.4), load.force_n)
