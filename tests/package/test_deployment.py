@@ -11,6 +11,7 @@ import yaml
 
 from svsa_server.config import Settings, write_example
 from tests.lab import run_lab
+from tests.waiting import follow_recording
 
 ROOT = Path(__file__).parents[2]
 DEPLOY = ROOT / "docs" / "deploy"
@@ -104,8 +105,8 @@ def test_lab_runs_on_a_read_only_file_system(tmp_path: Path) -> None:
     assert subprocess.run([*within, "touch", "/written"], capture_output=True).returncode
     with run_lab(within=within, data=str(tmp_path)) as lab:
         assert lab.client.get("/").is_success
-        lab.client.post(f"{lab.session}/recording", json={}).raise_for_status()
+        state = lab.client.post(f"{lab.session}/recording", json={}).raise_for_status().json()
         lab.jump(1)
         lab.client.delete(f"{lab.session}/recording").raise_for_status()
-        (run,) = lab.client.get("/api/v1/runs").raise_for_status().json()["runs"]
+        run = follow_recording(lab.client, f"/api/v1/runs/{state['recording']['run_id']}")
         assert run["state"] == "complete"

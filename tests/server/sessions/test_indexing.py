@@ -19,7 +19,7 @@ from svsa_server.sessions.indexing import Indexing
 from svsa_server.sessions.recording import open_catalogue
 from tests.lab_in_process import run_lab_in_process
 from tests.runs.records.records import build_header, build_samples
-from tests.waiting import wait_until
+from tests.waiting import follow_recording, wait_until
 
 RUNS, READ_AT_ONCE = 40, 5
 LIST = "/api/v1/runs"
@@ -56,9 +56,10 @@ def test_start_with_unknown_runs_answers_while_they_are_indexed(
         wait_until(lambda: lab.client.get(LIST).json()["indexing"] == progress)
         newest = lab.client.get(LIST).json()["runs"][0]["id"]
         lab.client.delete(f"{LIST}/{newest}").raise_for_status()
-        lab.client.post(lab.session + "/recording", json={"name": "new"}).raise_for_status()
+        state = lab.client.post(lab.session + "/recording", json={"name": "new"}).json()
         lab.jump(1)
         lab.client.delete(lab.session + "/recording").raise_for_status()
+        follow_recording(lab.client, f"{LIST}/{state['recording']['run_id']}")
         assert lab.client.get(LIST).json()["indexing"] == progress
         used.set()
         wait_until(lambda: lab.client.get(LIST).json()["indexing"] is None)
