@@ -2,7 +2,7 @@
 
 from typing import Any, ClassVar
 
-from pydantic import ConfigDict
+from pydantic import ConfigDict, model_validator
 
 from svsa.inputs.checked import Checked
 
@@ -11,7 +11,19 @@ class LawParameters(Checked):
     """Numbers and tuples of numbers, each with unit, bound, meaning and default.
 
     The symbol of a field `quantity(…, symbol="ω")` is used in names and on the page.
+
+    Attributes:
+        former_names: Current name by the name in earlier versions, whose records contain it.
     """
+
+    former_names: ClassVar[dict[str, str]] = {}
+
+    @model_validator(mode="before")
+    @classmethod
+    def _translate(cls, given: Any) -> Any:
+        if not isinstance(given, dict):
+            return given
+        return {cls.former_names.get(name, name): value for name, value in given.items()}
 
     def describe(self) -> dict[str, str]:
         """Format the parameters for a legend.

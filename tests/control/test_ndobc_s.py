@@ -41,7 +41,7 @@ def measure_chatter(torques):
     parameters, constants, memory = begin()
     for u1 in torques:
         measure_torque_variation.py_func(constants, memory, Torque(u1, 0.0))
-    return math.sqrt(memory.shaking), parameters
+    return math.sqrt(memory.chattering), parameters
 
 
 def apply_residuals(residuals):
@@ -59,7 +59,7 @@ def test_chatter_measures_alternating_torque_and_no_ramp():
     c = 0.2
     felt, parameters = measure_chatter([c * (-1) ** k for k in range(20_000)])
     assert felt == pytest.approx(4.0 * c, rel=1e-3)
-    ticks = round(parameters.shaking_time_s / 0.001)
+    ticks = round(parameters.averaging_time_s / 0.001)
     begun, _ = measure_chatter([c * (-1) ** k for k in range(ticks)])
     assert begun == pytest.approx(4.0 * c * math.sqrt(1.0 - math.exp(-1.0)), rel=0.01)
     ramp, _ = measure_chatter([0.01 * k for k in range(5000)])
@@ -69,9 +69,9 @@ def test_chatter_measures_alternating_torque_and_no_ramp():
 def test_single_step_contributes_at_most_the_cap():
     """From one limit to the other: two second differences, each limited to four times s₀."""
     jump, parameters = measure_chatter([0.0] * 10 + [30.0] * 3)
-    share = 1.0 - math.exp(-0.001 / parameters.shaking_time_s)
-    assert jump <= CAP * parameters.shaking_nm * math.sqrt(2.0 * share) * (1.0 + 1e-9)
-    assert jump < 0.5 * parameters.shaking_nm
+    share = 1.0 - math.exp(-0.001 / parameters.averaging_time_s)
+    assert jump <= CAP * parameters.chattering_nm * math.sqrt(2.0 * share) * (1.0 + 1e-9)
+    assert jump < 0.5 * parameters.chattering_nm
 
 
 def test_residual_of_a_load_raises_the_bandwidth_at_once_and_decays():
@@ -94,8 +94,8 @@ def test_sustained_oscillation_lowers_the_bandwidth():
     gate, a, omega = apply_residuals(3.0 * np.sin(2.0 * math.pi * 9.0 * time))
     assert np.max(gate[:300]) > 0.5
     assert np.max(gate[6000:]) < 0.1
-    assert np.max(a[6000:]) < 1.1 * parameters.loud_pole_rad_per_s
-    assert np.max(omega[6000:]) < 1.5 * parameters.loud_observer_rad_per_s
+    assert np.max(a[6000:]) < 1.1 * parameters.chattering_pole_rad_per_s
+    assert np.max(omega[6000:]) < 1.5 * parameters.chattering_observer_rad_per_s
 
 
 def test_adapted_noise_level_keeps_the_gate_closed_and_a_load_opens_it():

@@ -24,7 +24,7 @@ The results compare its effort with that of NDOBC. No stability is proven, becau
 depend on measurements.
 """
 
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 
@@ -42,18 +42,30 @@ from svsa.numerics.simd.choice import greatest, least
 
 CAP = 4.0
 """Largest contribution of one tick to s, in s₀."""
-MAX_SWING_NM = 10.0
+MAX_OSCILLATION_NM = 10.0
 """Largest contribution of one tick to n, N·m."""
 
 
 class ScheduledPoles(YieldingPoles):
     """NDOBC-W's poles, calm and after a large residual, and their reduction under oscillation."""
 
+    former_names: ClassVar[dict[str, str]] = {
+        "loud_pole_rad_per_s": "chattering_pole_rad_per_s",
+        "loud_observer_rad_per_s": "chattering_observer_rad_per_s",
+        "shaking_nm": "chattering_nm",
+        "swinging_nm": "oscillation_nm",
+        "shaking_time_s": "averaging_time_s",
+        "surprise_nm": "residual_nm",
+        "surprise_rad_per_s": "residual_rad_per_s",
+        "swing_rad_per_s": "oscillation_rad_per_s",
+        "swing_weight": "oscillation_weight",
+    }
+
     position_pole_rad_per_s: Number = quantity(
         "rad/s", "a₀ of (s + a)⁴ without saturation, chattering and oscillation",
         symbol="a₀", ge=20, le=200, default=123.0,
     )  # fmt: skip
-    loud_pole_rad_per_s: Number = quantity(
+    chattering_pole_rad_per_s: Number = quantity(
         "rad/s", "Lower bound of a under chattering and oscillation", symbol="a_s", ge=10,
         le=150, default=34.7,
     )  # fmt: skip
@@ -76,7 +88,7 @@ class ScheduledPoles(YieldingPoles):
         "rad/s", "ω_c: both observer poles otherwise, without chattering", symbol="ω_c", ge=5,
         le=300, default=20.6,
     )  # fmt: skip
-    loud_observer_rad_per_s: Number = quantity(
+    chattering_observer_rad_per_s: Number = quantity(
         "rad/s", "Lower bound of ω under chattering and oscillation", symbol="ω_s", ge=5, le=300,
         default=5.43,
     )  # fmt: skip
@@ -100,7 +112,7 @@ class ScheduledPoles(YieldingPoles):
         "rad/s", "l: largest rate of approach to the barrier", symbol="l", ge=10, le=300,
         default=81.0,
     )  # fmt: skip
-    shaking_nm: Number = quantity(
+    chattering_nm: Number = quantity(
         "N·m",
         "s₀: chattering at which the reduction is half",
         symbol="s₀",
@@ -108,7 +120,7 @@ class ScheduledPoles(YieldingPoles):
         le=20,
         default=1.82,
     )
-    swinging_nm: Number = quantity(
+    oscillation_nm: Number = quantity(
         "N·m",
         "n₀: oscillation at which the reduction is half",
         symbol="n₀",
@@ -116,22 +128,22 @@ class ScheduledPoles(YieldingPoles):
         le=20,
         default=0.619,
     )
-    shaking_time_s: Number = quantity(
+    averaging_time_s: Number = quantity(
         "s", "t_s: averaging time of s² and n²", symbol="t_s", ge=0.001, le=10,
         default=2.0,
     )  # fmt: skip
-    surprise_nm: Number = quantity(
+    residual_nm: Number = quantity(
         "N·m", "r₀: residual at which G is 1/2 without oscillation", symbol="r₀", ge=0.01,
         le=20, default=0.166,
     )  # fmt: skip
-    surprise_rad_per_s: Number = quantity(
+    residual_rad_per_s: Number = quantity(
         "rad/s", "ω_r: bandwidth of the residual filter", symbol="ω_r", ge=5, le=1000, default=131.0
     )
-    swing_rad_per_s: Number = quantity(
+    oscillation_rad_per_s: Number = quantity(
         "rad/s", "ω_n: slower residuals count as a load, not as oscillation",
         symbol="ω_n", ge=0, le=1000, default=11.9,
     )  # fmt: skip
-    swing_weight: Number = quantity(
+    oscillation_weight: Number = quantity(
         "1", "c: weight of n² in the threshold r₀² + c n²", symbol="c", ge=0, le=1000, default=92.3
     )
     release_s: Number = quantity(
@@ -143,7 +155,8 @@ class Constants(NamedTuple):
     """Constants of NDOBC-W, and those of the measures of load, noise and oscillation.
 
     Attributes:
-        a_max: Fastest position pole, rad/s; `a_min`, `back`, `a_loud` and `omega…` also in rad/s.
+        a_max: Fastest position pole, rad/s; `a_min`, `a_chattering` and `omega…` also in rad/s.
+        back: Largest rise of a per tick, rad/s.
         s0: s₀, N·m.
         n0: n₀, N·m.
         r0: r₀, N·m.
@@ -166,10 +179,10 @@ class Constants(NamedTuple):
     torque1_max: float
     torque2_max: float
     domain: Domain
-    a_loud: float
+    a_chattering: float
     omega: float
     omega_calm: float
-    omega_loud: float
+    omega_chattering: float
     s0: float
     n0: float
     newest: float
@@ -184,8 +197,8 @@ class Memory(NamedTuple):
     """Memory of NDOBC-W, and the measures of load, noise and oscillation.
 
     Attributes:
-        shaking: s², (N·m)².
-        swinging: n², (N·m)².
+        chattering: s², (N·m)².
+        oscillation: n², (N·m)².
         u1: Last commanded torque of motor 1, N·m; `du1` is its last difference. u2 and du2
             likewise.
         filtered2: ε of the link, N·m; filtered4 and filtered6 of the motors.
@@ -197,7 +210,7 @@ class Memory(NamedTuple):
     yielded: float = 0.0
     sigma: float = 0.0
     dsigma: float = 0.0
-    shaking: float = 0.0
+    chattering: float = 0.0
     u1: float = 0.0
     u2: float = 0.0
     du1: float = 0.0
@@ -208,7 +221,7 @@ class Memory(NamedTuple):
     slow2: float = 0.0
     slow4: float = 0.0
     slow6: float = 0.0
-    swinging: float = 0.0
+    oscillation: float = 0.0
     gate: float = 0.0
 
 
@@ -230,17 +243,17 @@ def build(parameters: ScheduledPoles, setting: Setting) -> Constants:
         torque1_max=setting.torque1_max,
         torque2_max=setting.torque2_max,
         domain=setting.domain,
-        a_loud=min(a, p.loud_pole_rad_per_s),
+        a_chattering=min(a, p.chattering_pole_rad_per_s),
         omega=omega,
         omega_calm=omega_calm,
-        omega_loud=min(omega_calm, p.loud_observer_rad_per_s),
-        s0=p.shaking_nm,
-        n0=p.swinging_nm,
-        newest=compute_share(1.0 / p.shaking_time_s, period),
-        r0=p.surprise_nm,
-        filtered=compute_share(p.surprise_rad_per_s, period),
-        slow=compute_share(p.swing_rad_per_s, period),
-        weight=p.swing_weight,
+        omega_chattering=min(omega_calm, p.chattering_observer_rad_per_s),
+        s0=p.chattering_nm,
+        n0=p.oscillation_nm,
+        newest=compute_share(1.0 / p.averaging_time_s, period),
+        r0=p.residual_nm,
+        filtered=compute_share(p.residual_rad_per_s, period),
+        slow=compute_share(p.oscillation_rad_per_s, period),
+        weight=p.oscillation_weight,
         released=compute_share(1.0 / p.release_s, period),
     )
 
@@ -252,7 +265,7 @@ def measure_torque_variation(constants: Constants, memory: np.record, torque: To
     ddu1, ddu2 = du1 - memory.du1, du2 - memory.du2
     most = CAP * constants.s0
     size = least(ddu1 * ddu1 + ddu2 * ddu2, most * most)
-    memory.shaking += constants.newest * (size - memory.shaking)
+    memory.chattering += constants.newest * (size - memory.chattering)
     memory.u1, memory.u2, memory.du1, memory.du2 = torque.u1, torque.u2, du1, du2
 
 
@@ -269,15 +282,16 @@ def detect_load(constants: Constants, memory: np.record, r: Disturbance) -> None
     filtered4 = filtered4 + c.filtered * (r.w4 - filtered4)
     filtered6 = filtered6 + c.filtered * (r.w6 - filtered6)
     size = filtered2 * filtered2 + filtered4 * filtered4 + filtered6 * filtered6
-    surprise = size / (c.r0 * c.r0 + c.weight * memory.swinging)
-    gate = surprise * surprise / (1.0 + surprise * surprise)
+    S = size / (c.r0 * c.r0 + c.weight * memory.oscillation)
+    gate = S * S / (1.0 + S * S)
     memory.gate = greatest(gate, memory.gate + c.released * (gate - memory.gate))
     memory.slow2 += c.slow * (filtered2 - memory.slow2)
     memory.slow4 += c.slow * (filtered4 - memory.slow4)
     memory.slow6 += c.slow * (filtered6 - memory.slow6)
     e2, e4, e6 = filtered2 - memory.slow2, filtered4 - memory.slow4, filtered6 - memory.slow6
-    swings = least(e2 * e2 + e4 * e4 + e6 * e6, MAX_SWING_NM * MAX_SWING_NM)
-    memory.swinging += c.newest * (swings - memory.swinging)
+    most = MAX_OSCILLATION_NM * MAX_OSCILLATION_NM
+    size = least(e2 * e2 + e4 * e4 + e6 * e6, most)
+    memory.oscillation += c.newest * (size - memory.oscillation)
     memory.filtered2, memory.filtered4, memory.filtered6 = filtered2, filtered4, filtered6
 
 
@@ -285,10 +299,10 @@ def detect_load(constants: Constants, memory: np.record, r: Disturbance) -> None
 def compute_poles(constants: Constants, memory: np.record) -> tuple[float, float]:
     """Bound of a, and ω, rad/s: from a_s, ω_s to a₀, ω_c by f = 1/(1 + l²), then to a₀, ω₀ by G."""
     c, G = constants, memory.gate
-    loudness = memory.shaking / (c.s0 * c.s0) + memory.swinging / (c.n0 * c.n0)
-    f = 1.0 / (1.0 + loudness * loudness)
-    a = c.a_loud + f * (c.a_max - c.a_loud)
-    omega = c.omega_loud + f * (c.omega_calm - c.omega_loud)
+    level = memory.chattering / (c.s0 * c.s0) + memory.oscillation / (c.n0 * c.n0)
+    f = 1.0 / (1.0 + level * level)
+    a = c.a_chattering + f * (c.a_max - c.a_chattering)
+    omega = c.omega_chattering + f * (c.omega_calm - c.omega_chattering)
     return a + G * (c.a_max - a), omega + G * (c.omega - omega)
 
 

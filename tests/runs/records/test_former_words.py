@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from svsa.control.installed import get_law, read_parameters
 from svsa.hardware.session.replay import verify_bench_record
 from svsa.runs.records.former_words import FIELDS, KINDS, MOTION, translate_results
 from svsa.runs.records.reader import open_record
@@ -48,6 +49,14 @@ def test_former_record_is_opened_as_a_result() -> None:
     result = open_run(RECORDS / "simulated")
     lanes = (result, *result.comparisons)
     assert [one.law for one in lanes] == ["ndobc", "fl", "ndobc_s"]
+
+
+def test_former_names_of_parameters_are_read() -> None:
+    model = get_law("ndobc_s").parameters
+    present = {name: 1.01 * getattr(model(), name) for name in model.former_names.values()}
+    former = {was: present[name] for was, name in model.former_names.items()}
+    assert len(former) == len(present) == 9
+    assert read_parameters("ndobc_s", former) == model(**present) != model()
 
 
 def test_former_leaderboard_entry_has_the_present_names() -> None:
