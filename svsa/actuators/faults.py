@@ -11,8 +11,10 @@ _TICK_S = 0.002
 _SUPERVISOR_S = 0.030
 _THIRD_LINE_S = 0.25
 
-HELD_BACK = "_held_to_nm"
+ALLOWED_TORQUE = "_allowed_nm"
 """Suffix of the name of a fault's value: the torque to which heat limited a motor, N·m."""
+_FORMER_ALLOWED = "_held_to_nm"
+"""The same in records of 0.1.0."""
 
 
 class FaultKind(NamedTuple):
@@ -212,7 +214,7 @@ def advise(code: str, values: Mapping[str, Any]) -> str | None:
     Returns:
         A few sentences, or None if the message of the fault contains the advice.
     """
-    if any(name.endswith(HELD_BACK) for name in values):
+    if any(name.endswith((ALLOWED_TORQUE, _FORMER_ALLOWED)) for name in values):
         return _HEAT_ADVICE
     kind = FAULTS.get(code)
     return kind.advice if kind else None

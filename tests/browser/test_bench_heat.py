@@ -15,9 +15,9 @@ pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("bench_page", "withou
 
 HEAT_FAULT = describe_fault(
     "lever_end",
-    "Motor 2 was held back by heat: End of stiffness range.",
+    "The torque of motor 2 was limited by heat: End of stiffness range.",
     tick=5728,
-    values={"motor2_heat": 1.0, "motor2_commanded_nm": 5.0, "motor2_held_to_nm": 1.27},
+    values={"motor2_heat": 1.0, "motor2_commanded_nm": 5.0, "motor2_allowed_nm": 1.27},
 )
 
 
@@ -30,7 +30,7 @@ def test_motor_limited_by_heat_is_shown_in_banner_and_table(page: Page, still_la
     row = page.get_by_role("row", name=re.compile("^Motor 2"))
     expect(row).to_contain_text("31 %")
     expect(page.get_by_text("torque limited by winding heat")).to_have_count(0)
-    motors[1] |= {"heat": 0.985, "allowed_torque_nm": 1.83, "held_back": True}
+    motors[1] |= {"heat": 0.985, "allowed_torque_nm": 1.83, "limited_by_heat": True}
     bench.change(motors=motors)
     expect(row).to_contain_text("limited to 1.83 N·m")
     expect(find_bench(page).get_by_role("alert")).to_have_text(

@@ -82,7 +82,7 @@ def hang_paper_load(bench: Bench, process: LoopProcess, memory: LoopMemory, link
         process._note(0.0, 0.0, 0)
         process._tell()
         messages += link.receive()
-        if held is None and memory.fields["is_held_back"][1]:
+        if held is None and memory.fields["is_limited_by_heat"][1]:
             held = bench.now() - begin
         if bench.plant.fault is not None:
             assert held is not None
@@ -93,14 +93,14 @@ def hang_paper_load(bench: Bench, process: LoopProcess, memory: LoopMemory, link
 
 def test_fault_due_to_heat_names_the_heat_first(reported: Reported) -> None:
     assert reported.fault.code == "lever_end"
-    assert reported.fault.message.startswith("Motor 2 was held back by heat")
+    assert reported.fault.message.startswith("The torque of motor 2 was limited by heat")
     assert "End of stiffness range" in reported.fault.message
     assert reported.fault.values["motor2_heat"] > 0.9
     assert LASTING_NM <= reported.allowed_nm < 2.0
 
 
 def test_loop_reports_the_limited_motor_before_the_fault(reported: Reported) -> None:
-    said = [(message["status"], message["held_back"]) for message in reported.messages]
+    said = [(message["status"], message["limited_by_heat"]) for message in reported.messages]
     assert said[0] == (BenchStatus.RUN, [])
     assert (BenchStatus.RUN, ["motor2"]) in said
     assert said[-1] == (BenchStatus.FAULT, ["motor2"])

@@ -4,9 +4,9 @@ import pytest
 
 from svsa.actuators import domain
 from svsa.actuators.faults import (
+    ALLOWED_TORQUE,
     FAULT_CODES,
     FAULTS,
-    HELD_BACK,
     LOSSES,
     advise,
     find_number,
@@ -38,8 +38,9 @@ def test_run_that_leaves_the_domain_of_the_model_has_advice() -> None:
 
 
 @pytest.mark.parametrize("code", ["lever_end", "implausible"])
-def test_heat_limit_of_a_motor_is_the_reason_of_any_fault(code: str) -> None:
-    warm = VALUES | {"motor2_heat": 1.0, "motor2_commanded_nm": 5.0, f"motor2{HELD_BACK}": 1.27}
+@pytest.mark.parametrize("limit", [f"motor2{ALLOWED_TORQUE}", "motor2_held_to_nm"])  # now, 0.1.0
+def test_heat_limit_of_a_motor_is_the_reason_of_any_fault(code: str, limit: str) -> None:
+    warm = VALUES | {"motor2_heat": 1.0, "motor2_commanded_nm": 5.0, limit: 1.27}
     advice = str(advise(code, warm))
     assert "Let the motor cool" in advice
     assert "stiffer setting" not in advice

@@ -50,7 +50,7 @@ def _build_motors(session: BenchSession) -> tuple[MotorState, MotorState]:
             heat=float(fields["heat"][number]),
             lasting_torque_nm=compute_lasting_torque(motor),
             allowed_torque_nm=float(fields["allowed_nm"][number]),
-            held_back=bool(fields["is_held_back"][number]),
+            limited_by_heat=bool(fields["is_limited_by_heat"][number]),
         )
         for number, motor in enumerate((session.bench.motor1, session.bench.motor2))
     )

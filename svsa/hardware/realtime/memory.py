@@ -31,7 +31,7 @@ _LAYOUT = np.dtype(
         ("current_a", np.float64, 2),
         ("heat", np.float64, 2),
         ("allowed_nm", np.float64, 2),
-        ("is_held_back", np.int64, 2),
+        ("is_limited_by_heat", np.int64, 2),
         ("ages_s", np.float64, 3),
         ("lateness", np.int64, len(LATENESS_EDGES_S)),
         ("cost", np.int64, len(LATENESS_EDGES_S)),
@@ -50,8 +50,8 @@ class LoopMemory:
     - ticks, skipped: ticks of the loop since its start, and missed ones.
     - status: index of the bench's state.
     - quick_stop: 1 requests it.
-    - heat, allowed_nm, is_held_back: of both motors, see `Winding`; the heat is initially that of
-      the previous loop.
+    - heat, allowed_nm, is_limited_by_heat: of both motors, see `Winding`; the heat is initially
+      that of the previous loop.
     - lateness, cost: histograms over `LATENESS_EDGES_S` (upper edges).
     """
 

@@ -105,7 +105,7 @@ class LoopProcess:
         for number, motor in enumerate(self._plant.motors):
             fields["heat"][number] = motor.winding.heat
             fields["allowed_nm"][number] = motor.winding.allow()
-            fields["is_held_back"][number] = motor.held_back is not None
+            fields["is_limited_by_heat"][number] = motor.heat_reduction is not None
         if self._loop.reading is not None:
             fields["current_a"] = self._loop.reading.current_a
             fields["ages_s"] = self._loop.reading.ages_s
@@ -179,20 +179,20 @@ class LoopProcess:
     def _tell(self) -> None:
         """Report changes of the bench's state."""
         plant = self._plant
-        held_back = [motor.name for motor in plant.motors if motor.held_back is not None]
+        limited = [motor.name for motor in plant.motors if motor.heat_reduction is not None]
         state = (
             plant.status,
             plant.fault,
             tuple(plant.problems),
             plant.homing_step,
-            tuple(held_back),
+            tuple(limited),
         )
         if self._link is None or state == self._reported:
             return
         self._reported = state
         fault = dataclasses.asdict(plant.fault) if plant.fault else None
         status = {"status": plant.status, "fault": fault, "problems": list(plant.problems)}
-        status |= {"homing_step": plant.homing_step, "held_back": held_back}
+        status |= {"homing_step": plant.homing_step, "limited_by_heat": limited}
         try:
             self._link.send({"event": "state", **status})
         except LinkClosedError:

@@ -5,7 +5,7 @@ from collections import deque
 
 from svsa.actuators.domain import INSIDE, Bounds, Domain, check_packed_domain
 from svsa.actuators.elasticity import AnyActuator
-from svsa.actuators.faults import FAULT_CODES, HELD_BACK, label_fault
+from svsa.actuators.faults import ALLOWED_TORQUE, FAULT_CODES, label_fault
 from svsa.actuators.signals import Disturbance, State, Torque
 from svsa.hardware.file import BenchFile
 from svsa.hardware.real_motors import RealMotors
@@ -78,7 +78,7 @@ class MotorGuard:
         self.last = 0.0
 
     @property
-    def held_back(self) -> HeatReduction | None:
+    def heat_reduction(self) -> HeatReduction | None:
         """Torque reduction by heat, now or within the last half second; None without."""
         return self._holding.present
 
@@ -139,13 +139,13 @@ class MotorGuard:
 
     def explain(self, alarm: Alarm) -> Alarm:
         """Prefix an alarm with the reduction by heat, if there was one."""
-        held = self.held_back
+        held = self.heat_reduction
         if held is None:
             return alarm
         values = {
             f"{self.name}_heat": self.winding.heat,
             f"{self.name}_commanded_nm": held.commanded_nm,
-            self.name + HELD_BACK: held.allowed_nm,
+            self.name + ALLOWED_TORQUE: held.allowed_nm,
         }
         words = describe_heat_reduction(self.name, held, self.winding)
         return Alarm(alarm.code, f"{words} {alarm.message}", {**alarm.values, **values})

@@ -93,15 +93,14 @@ class HeatReductionState:
 
 def describe_heat_reduction(name: str, held: HeatReduction, winding: Winding) -> str:
     """Describe a reduction by heat, for the text of a later fault; `name` is that of the axis."""
-    motor = AXIS_WORDS[name]
     return (
-        f"{motor.capitalize()} was held back by heat: its winding had {100.0 * winding.heat:.0f} %"
-        f" of its heat limit. It was limited to {held.allowed_nm:.3g} N·m, and"
-        f" {held.commanded_nm:.3g} N·m were commanded (continuous rating:"
-        f" {winding.lasting_nm:.3g} N·m)."
+        f"The torque of {AXIS_WORDS[name]} was limited by heat: its winding had"
+        f" {100.0 * winding.heat:.0f} % of its heat limit. The torque was limited to"
+        f" {held.allowed_nm:.3g} N·m, and {held.commanded_nm:.3g} N·m were commanded (continuous"
+        f" rating: {winding.lasting_nm:.3g} N·m)."
     )
 
 
 def describe_heat(name: str, is_on: bool) -> str:
     """Describe the start or the end of a reduction by heat, as an event."""
-    return f"{AXIS_WORDS[name].capitalize()} held back by heat{'' if is_on else ': no more'}"
+    return f"Torque of {AXIS_WORDS[name]} {'' if is_on else 'no longer '}limited by heat"

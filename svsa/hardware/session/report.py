@@ -27,7 +27,7 @@ class HeatEvents:
         for axis in sorted(held ^ self._axes):
             is_on = axis in held
             if is_on or moving:
-                kind = "held_back" if is_on else "held_back_no_more"
+                kind = "heat_limit_began" if is_on else "heat_limit_ended"
                 journal.report(kind, describe_heat(axis, is_on))
         self._axes = held
 
@@ -78,7 +78,9 @@ class BenchReport:
         for reported in states:
             self.problems, self.homing_step = reported["problems"], reported["homing_step"]
             self._heat.log(
-                reported["held_back"], BenchStatus(reported["status"]) in MOVING, self._journal
+                reported["limited_by_heat"],
+                BenchStatus(reported["status"]) in MOVING,
+                self._journal,
             )
             if reported["fault"] is None:
                 self._latch.clear_reported()

@@ -28,7 +28,7 @@ def press(guard: Guard, torque2: float, ticks: int) -> None:
 def find_onset(guard: Guard, torque2: float) -> int:
     """Return the first tick in which heat reduces this torque."""
     for tick in range(20_000):
-        if guard.motor2.held_back is not None:
+        if guard.motor2.heat_reduction is not None:
             return tick
         press(guard, torque2, 1)
     raise AssertionError("heat held nothing back")
@@ -48,7 +48,7 @@ def test_cold_motor_is_limited_when_its_heat_reaches_the_bound() -> None:
 def test_continuous_torque_is_never_limited(torque: float) -> None:
     guard = build_guard(BENCH)
     press(guard, torque, 60_000)
-    assert guard.motor2.held_back is None
+    assert guard.motor2.heat_reduction is None
     assert guard.motor2.winding.allow() > abs(torque)
 
 
@@ -57,7 +57,7 @@ def test_cold_motor_at_full_torque_is_limited_by_heat_alone(asked: float) -> Non
     guard = build_guard(BENCH)
     press(guard, asked, 100)
     assert guard.motor2.winding.allow() == 5.0
-    assert guard.motor2.held_back is None
+    assert guard.motor2.heat_reduction is None
 
 
 def test_fault_during_a_heat_limit_reports_the_heat_first() -> None:
@@ -70,14 +70,16 @@ def test_fault_during_a_heat_limit_reports_the_heat_first() -> None:
     warm = guard.check(Torque(0.0, TORQUE_NM), AT_ITS_END, UNDISTURBED)
     assert warm is not None
     assert warm.code == cold.code
-    assert warm.message.startswith("Motor 2 was held back by heat: its winding had 100 % of its")
+    assert warm.message.startswith(
+        "The torque of motor 2 was limited by heat: its winding had 100 % of its"
+    )
     assert (
         "limited to 1.22 N·m, and 2 N·m were commanded (continuous rating: 1.22 N·m)"
         in warm.message
     )
     assert warm.message.endswith(cold.message)
     heat, asked, held = (
-        warm.values[name] for name in ("motor2_heat", "motor2_commanded_nm", "motor2_held_to_nm")
+        warm.values[name] for name in ("motor2_heat", "motor2_commanded_nm", "motor2_allowed_nm")
     )
     assert heat == guard.motor2.winding.heat
     assert (asked, LASTING_NM <= held < TORQUE_NM) == (TORQUE_NM, True)
@@ -88,13 +90,13 @@ def test_heat_is_a_reason_for_half_a_second_and_never_in_the_next_run() -> None:
     guard = build_guard(BENCH)
     press(guard, TORQUE_NM, find_onset(build_guard(BENCH), TORQUE_NM) + 100)
     press(guard, 0.0, round(LINGERS_S / PERIOD_S) - 2)
-    assert guard.motor2.held_back is not None
+    assert guard.motor2.heat_reduction is not None
     press(guard, 0.0, 3)
-    assert guard.motor2.held_back is None
+    assert guard.motor2.heat_reduction is None
     alarm = guard.check(Torque(0.0, 0.0), AT_ITS_END, UNDISTURBED)
     assert alarm is not None
     assert AXIS_WORDS["motor2"] not in alarm.message.lower()
     press(guard, 5.0, 10)
-    assert guard.motor2.held_back is not None
+    assert guard.motor2.heat_reduction is not None
     guard.begin()
-    assert guard.motor2.held_back is None
+    assert guard.motor2.heat_reduction is None

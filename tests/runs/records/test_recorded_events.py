@@ -25,9 +25,9 @@ from svsa.runs.session.simulated import SimulatedSession
 from .records import build_header
 
 HEAT = (
-    Event(10, 0.01, "held_back", "Motor 2 held back by heat"),
-    Event(30, 0.03, "held_back_no_more", "Motor 2 held back by heat: no more"),
-    Event(50, 0.05, "held_back", "Motor 1 held back by heat"),
+    Event(10, 0.01, "heat_limit_began", "Torque of motor 2 limited by heat"),
+    Event(30, 0.03, "heat_limit_ended", "Torque of motor 2 no longer limited by heat"),
+    Event(50, 0.05, "heat_limit_began", "Torque of motor 1 limited by heat"),
 )
 
 

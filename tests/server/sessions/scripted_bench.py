@@ -86,13 +86,13 @@ def build_bench_session(
 def say(
     session: BenchSession,
     status: BenchStatus,
-    held_back: Iterable[str] = (),
+    limited_by_heat: Iterable[str] = (),
     fault: Fault | None = None,
 ) -> None:
     """Send a state of the loop: the session receives it at its next wake-up."""
     assert isinstance(session.loop.processes, Processes)
     event = {"event": "state", "status": status, "problems": [], "homing_step": None}
-    reported = {"held_back": list(held_back), "fault": asdict(fault) if fault else None}
+    reported = {"limited_by_heat": list(limited_by_heat), "fault": asdict(fault) if fault else None}
     session.loop.processes.states.append(event | reported)
 
 

@@ -26,8 +26,8 @@ def session(monkeypatch: pytest.MonkeyPatch) -> Iterator[BenchSession]:
     made.close()
 
 
-def report(session: BenchSession, status: BenchStatus, *held_back: str) -> None:
-    say(session, status, held_back)
+def report(session: BenchSession, status: BenchStatus, *limited: str) -> None:
+    say(session, status, limited)
     receive(session)
 
 
@@ -42,9 +42,9 @@ def test_start_and_end_of_a_heat_limit_are_events(session: BenchSession) -> None
     report(session, BenchStatus.RUN, "motor1", "motor2")
     report(session, BenchStatus.RUN, "motor2")
     assert list_events(session) == [
-        ("held_back", "Motor 2 held back by heat"),
-        ("held_back", "Motor 1 held back by heat"),
-        ("held_back_no_more", "Motor 1 held back by heat: no more"),
+        ("heat_limit_began", "Torque of motor 2 limited by heat"),
+        ("heat_limit_began", "Torque of motor 1 limited by heat"),
+        ("heat_limit_ended", "Torque of motor 1 no longer limited by heat"),
     ]
 
 
@@ -52,19 +52,23 @@ def test_bench_at_rest_requests_nothing_of_a_warm_motor(session: BenchSession) -
     report(session, BenchStatus.RUN, "motor2")
     report(session, BenchStatus.READY)
     report(session, BenchStatus.RUN, "motor2")
-    assert [kind for kind, _ in list_events(session)] == ["held_back", "held_back"]
+    assert [kind for kind, _ in list_events(session)] == ["heat_limit_began", "heat_limit_began"]
 
 
 def test_state_has_the_heat_of_both_motors_while_the_loop_ticks(session: BenchSession) -> None:
     fields = session.loop.memory.fields
-    fields["heat"], fields["allowed_nm"], fields["is_held_back"] = (0.1, 0.99), (15.0, 1.6), (0, 1)
+    fields["heat"], fields["allowed_nm"], fields["is_limited_by_heat"] = (
+        (0.1, 0.99),
+        (15.0, 1.6),
+        (0, 1),
+    )
     fields["skipped"], fields["skipped_in_run"] = 64, 3
     bench = build_state(HostedSession(session)).bench
     assert bench is not None
     assert bench.motors is not None
     one, two = bench.motors
-    assert (one.heat, one.allowed_torque_nm, one.held_back) == (0.1, 15.0, False)
-    assert (two.heat, two.allowed_torque_nm, two.held_back) == (0.99, 1.6, True)
+    assert (one.heat, one.allowed_torque_nm, one.limited_by_heat) == (0.1, 15.0, False)
+    assert (two.heat, two.allowed_torque_nm, two.limited_by_heat) == (0.99, 1.6, True)
     assert two.lasting_torque_nm == pytest.approx(1.2215, abs=1e-4)
     assert (bench.loop.skipped_ticks, bench.loop.skipped_in_run) == (64, 3)
 

@@ -73,7 +73,7 @@ class MotorState(BaseModel):
     heat: float = Field(description="1 is the thermal limit; the torque is reduced from 0.9 on")
     lasting_torque_nm: float = Field(description="Continuous rating: the heat stays at 1")
     allowed_torque_nm: float = Field(description="Largest torque that heat allows now")
-    held_back: bool = Field(
+    limited_by_heat: bool = Field(
         description="Whether heat limits the torque, now or within the last 0.5 s"
     )
 

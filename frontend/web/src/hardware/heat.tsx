@@ -18,9 +18,9 @@ export function Heat({ motor }: { motor: Motor | undefined }) {
   if (motor === undefined || !isLive.value) return <td>{text.bench.drives.none}</td>;
   const [share, allowed] = sharesOf(motor);
   return (
-    <td class={motor.held_back ? "bad" : ""} title={words.hint}>
+    <td class={motor.limited_by_heat ? "bad" : ""} title={words.hint}>
       {words.share(share)}
-      {motor.held_back && (
+      {motor.limited_by_heat && (
         <strong class="block breaks">
           {" "}
           <span aria-hidden="true">▲</span> {words.heldTo(allowed)}
@@ -33,7 +33,7 @@ export function Heat({ motor }: { motor: Motor | undefined }) {
 /** Shown while heat limits a motor: the reduction of its torque, and what to do. */
 export function HeatWarning({ bench: { motors } }: { bench: BenchState }) {
   const held = (motors ?? []).map((motor, index) => ({ motor, index }));
-  const now = isLive.value ? held.filter(({ motor }) => motor.held_back) : [];
+  const now = isLive.value ? held.filter(({ motor }) => motor.limited_by_heat) : [];
   return (
     <div class="heat-warnings">
       {now.map(({ motor, index }) => (
