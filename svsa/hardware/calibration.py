@@ -24,8 +24,8 @@ SUFFIX = ".calibration.toml"
 class Calibration(Checked):
     """Date, name and results. The zero counts hold at the zero marks."""
 
-    date: str = quantity("", "When, ISO 8601 with its zone")
-    by: str = quantity("", "Who made it", min_length=1, max_length=100)
+    date: str = quantity("", "Time, ISO 8601 with its zone")
+    by: str = quantity("", "Author", min_length=1, max_length=100)
     fingerprint: str = quantity("", "Fingerprint of the bench file of the calibration")
     deflection_zero_counts: Whole = quantity("counts", "Counts of the deflection encoder at φ = 0")
     signs_confirmed: Flag = quantity("", "Whether every sign was confirmed")

@@ -31,12 +31,14 @@ class TimingSettings(Checked):
     """Period of the loop, and delays between measurement and action."""
 
     period_s: Number = quantity("s", "Control period T, 0.001 or 0.002", default=0.001)
-    latency_s: Number = quantity("s", "From a tick to its current", ge=0, le=0.002, default=0.0004)
+    latency_s: Number = quantity(
+        "s", "Delay from a tick to its current", ge=0, le=0.002, default=0.0004
+    )
     current_lag_s: Number = quantity(
         "s", "Time constant of the current loops", ge=0, le=0.05, default=0.0005
     )
     feedback_age_s: Number = quantity(
-        "s", "Age of a count when its frame is stamped", ge=0, le=0.005, default=0.0002
+        "s", "Age of a count at the time stamp of its frame", ge=0, le=0.005, default=0.0002
     )
     start_silence_s: Number = quantity(
         "s",
@@ -50,31 +52,59 @@ class TimingSettings(Checked):
 class SafetySettings(Checked):
     """Limits in addition to those of the motors; see `svsa.hardware.safety.guard`."""
 
-    torque_rate_nm_per_s: Number = quantity("N·m/s", "Fastest change of torque", gt=0, le=1e6)
+    torque_rate_nm_per_s: Number = quantity("N·m/s", "Maximum rate of the torque", gt=0, le=1e6)
     disturbance_max_nm: Number = quantity(
-        "N·m", "|ŵ| beyond which an encoder or motor must be wrong", gt=0, le=1000
+        "N·m", "|ŵ| above which an encoder or motor is considered faulty", gt=0, le=1000
     )
     standstill_max_nm: Number = quantity(
         "N·m",
-        "Change of ŵ while counts stand still: more than twice the friction",
+        "Change of ŵ at constant counts that is a fault: more than twice the friction",
         gt=0,
         default=1.0,
     )
-    link_position_max_rad: Number = quantity("rad", "|q| at most", gt=0, le=100)
-    link_speed_max_rad_per_s: Number = quantity("rad/s", "Fastest link", gt=0, le=1000)
-    ramp_s: Number = quantity("s", "From full torque to zero at a stop", ge=0.01, le=5, default=0.3)
-    stale_zero_s: Number = quantity("s", "Feedback older: zero torque", gt=0, le=1, default=0.005)
-    stale_fault_s: Number = quantity("s", "Feedback older: fault", gt=0, le=1, default=0.020)
-    missed_ticks: Whole = quantity("ticks", "Missed in a row: fault", ge=1, le=1000, default=20)
-    loop_s: Number = quantity(
-        "s", "Loop silent: the supervisor stops the drives", ge=0.005, le=1, default=0.020
+    link_position_max_rad: Number = quantity("rad", "Maximum |q|", gt=0, le=100)
+    link_speed_max_rad_per_s: Number = quantity("rad/s", "Maximum speed of the link", gt=0, le=1000)
+    ramp_s: Number = quantity(
+        "s", "Duration of the ramp from full torque to zero at a stop", ge=0.01, le=5, default=0.3
     )
-    supervisor_s: Number = quantity("s", "Supervisor silent: fault", gt=0, le=5, default=0.05)
-    server_s: Number = quantity("s", "Server silent: ramp to zero", ge=0.1, le=60, default=1.0)
-    dead_man: Flag = quantity("", "Runs only while the operator holds a switch", default=False)
-    operator_s: Number = quantity("s", "Switch not held: ramp to zero", ge=0.05, le=2, default=0.1)
+    stale_zero_s: Number = quantity(
+        "s", "Age of the feedback above which the torque is zero", gt=0, le=1, default=0.005
+    )
+    stale_fault_s: Number = quantity(
+        "s", "Age of the feedback above which the run ends in a fault", gt=0, le=1, default=0.020
+    )
+    missed_ticks: Whole = quantity(
+        "ticks", "Consecutive missed ticks that are a fault", ge=1, le=1000, default=20
+    )
+    loop_s: Number = quantity(
+        "s",
+        "Silence of the loop after which the supervisor stops the drives",
+        ge=0.005,
+        le=1,
+        default=0.020,
+    )
+    supervisor_s: Number = quantity(
+        "s", "Silence of the supervisor that is a fault", gt=0, le=5, default=0.05
+    )
+    server_s: Number = quantity(
+        "s",
+        "Silence of the server after which the torque ramps to zero",
+        ge=0.1,
+        le=60,
+        default=1.0,
+    )
+    dead_man: Flag = quantity(
+        "", "Whether it runs only while the operator holds a switch", default=False
+    )
+    operator_s: Number = quantity(
+        "s",
+        "Time after the release of the switch when the torque ramps to zero",
+        ge=0.05,
+        le=2,
+        default=0.1,
+    )
     needs_watcher: Flag = quantity(
-        "", "Runs only while a stream of the session is open", default=True
+        "", "Whether it runs only while a stream of the session is open", default=True
     )
 
 
@@ -82,20 +112,20 @@ class DesignSettings(Checked):
     """The control design of this bench."""
 
     actuator: str | None = quantity(
-        "", "Installed actuator; left out, that of the file, or the SVSA", default=None
+        "", "Installed actuator; by default that of the file, or the SVSA", default=None
     )
     file: str | None = quantity(
-        "", "Parameter file; left out, the actuator's prototype", default=None
+        "", "Parameter file; by default the actuator's prototype", default=None
     )
     corner_rad_per_s: Number = quantity(
-        "rad/s", "Corner of the state estimator", ge=1, le=2000, default=200.0
+        "rad/s", "Bandwidth of the state estimator", ge=1, le=2000, default=200.0
     )
 
 
 class EmulatorSettings(Checked):
     """Control interface and time base of an emulator."""
 
-    control_port: Whole = quantity("", "Its control port", ge=1, le=65535)
+    control_port: Whole = quantity("", "Control port", ge=1, le=65535)
     lockstep: Flag = quantity(
         "",
         "The emulator (`svsa emulator --lockstep`) waits for the loop: a busy machine slows both,"
@@ -111,7 +141,7 @@ Motor = Annotated[SerializeAsAny[MotorSettings], BeforeValidator(read_motor)]
 class BenchFile(Checked):
     """A bench; `path` is where the file lies."""
 
-    name: str = quantity("", "What people call it")
+    name: str = quantity("", "Name")
     bus: BusSettings
     supervisor_bus: BusSettings | None = quantity(
         "", "The supervisor's own adapter, if an adapter serves one program only", default=None

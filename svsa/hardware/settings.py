@@ -20,7 +20,7 @@ class BusSettings(Checked):
     """Arguments for python-can; `options` goes to `can.Bus` unchanged."""
 
     interface: str = quantity("", "Interface of python-can: socketcan, slcan, pcan, socketcand …")
-    channel: str = quantity("", "Channel of that interface, as can0 or /dev/ttyACM0")
+    channel: str = quantity("", "Channel of that interface, such as can0 or /dev/ttyACM0")
     bitrate: Whole = quantity("bit/s", "Bit rate", ge=10_000, le=1_000_000, default=1_000_000)
     fd: Flag = quantity("", "CAN FD: frames of up to 64 bytes", default=False)
     data_bitrate: Whole = quantity(
@@ -30,9 +30,11 @@ class BusSettings(Checked):
         le=8_000_000,
         default=5_000_000,
     )
-    options: dict[str, Any] = quantity("", "More arguments of can.Bus", default={})
+    options: dict[str, Any] = quantity("", "Further arguments of can.Bus", default={})
     timestamps: Literal["bus", "arrival"] = quantity(
-        "", "bus: the adapter's time of a frame; arrival: when it was read", default="bus"
+        "",
+        "Source of a frame's time: bus (the adapter) or arrival (when it was read)",
+        default="bus",
     )
 
 
@@ -47,22 +49,24 @@ class MotorSettings(Checked):
 
     drive: str = quantity("", "Family of the drive", default=DEFAULT_DRIVE)
     counts_per_rev: Whole | None = quantity(
-        "1", "Counts a motor turn, after quadrature", ge=4, le=10**7, default=None
+        "1", "Counts per motor revolution, after quadrature", ge=4, le=10**7, default=None
     )
-    gear_ratio: Number | None = quantity("1", "Gearbox N : 1", gt=0, le=10_000, default=None)
+    gear_ratio: Number | None = quantity(
+        "1", "Gear ratio N of N : 1", gt=0, le=10_000, default=None
+    )
     torque_constant_nm_per_a: Number | None = quantity(
         "N·m/A", "K_t of the winding", gt=0, le=10, default=None
     )
     efficiency: Number | None = quantity("1", "η of the gearbox", gt=0, le=1, default=None)
     sign: Sign | None = quantity(
-        "", "1 where positive current grows the angle of the model", default=None
+        "", "1 if a positive current increases the angle of the model, otherwise −1", default=None
     )
     nominal_current_a: Number = quantity("A", "Continuous current", gt=0, le=32)
-    peak_current_a: Number = quantity("A", "Current never passed", gt=0, le=32)
+    peak_current_a: Number = quantity("A", "Maximum current", gt=0, le=32)
     thermal_time_s: Number = quantity("s", "Thermal time constant of the winding", gt=0, le=3600)
-    speed_max_rad_per_s: Number = quantity("rad/s", "Fastest at the output", gt=0, le=1000)
-    position_min_rad: Number = quantity("rad", "Lowest angle at the output", ge=-100, le=100)
-    position_max_rad: Number = quantity("rad", "Highest angle at the output", ge=-100, le=100)
+    speed_max_rad_per_s: Number = quantity("rad/s", "Maximum speed at the output", gt=0, le=1000)
+    position_min_rad: Number = quantity("rad", "Minimum angle at the output", ge=-100, le=100)
+    position_max_rad: Number = quantity("rad", "Maximum angle at the output", ge=-100, le=100)
 
     @property
     def place(self) -> str:
@@ -73,11 +77,13 @@ class MotorSettings(Checked):
 class DeflectionSettings(Checked):
     """The deflection encoder; `options` are the settings of its source."""
 
-    source: Literal["can", "serial", "nidaqmx", "replay"] = quantity("", "Where counts come from")
+    source: Literal["can", "serial", "nidaqmx", "replay"] = quantity("", "Source of the counts")
     counts_per_rev: Whole | None = quantity(
-        "1", "Counts a turn, after quadrature", ge=4, le=10**8, default=None
+        "1", "Counts per revolution, after quadrature", ge=4, le=10**8, default=None
     )
     sign: Sign | None = quantity(
-        "", "1 where counts grow with φ = q − θ1, of two antagonistic motors with q", default=None
+        "",
+        "1 if counts increase with φ = q − θ1 (two antagonistic motors: with q), otherwise −1",
+        default=None,
     )
     options: dict[str, Any] = quantity("", "Settings of the source", default={})

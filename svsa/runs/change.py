@@ -39,7 +39,7 @@ class Change(Checked):
     nominal: InstalledActuator | None = None
     effects: Effects | None = None
     load: Load | None = None
-    feedforward: Flag | None = quantity("", "Whether an arm has its feedforward", default=None)
+    feedforward: Flag | None = quantity("", "Whether the arm feedforward is on", default=None)
     joint: Whole | None = quantity(
         "", "Joint of an arm; None: both, and joint 1 for a torque", ge=1, le=2, default=None
     )

@@ -97,7 +97,7 @@ class _Command(Checked):
     argument: Any
     joint: Whole | None = quantity(
         "",
-        "Joint of an arm; None for a single joint, and for what is not of one",
+        "Joint of an arm; None for a single joint, and for a command to the whole arm",
         ge=1,
         le=2,
         default=None,

@@ -143,7 +143,7 @@ class ArmSetup(Checked):
 
     links: ArmParameters = quantity("", "The links")
     model: ArmParameters = quantity("", "The links in the model of the feedforward")
-    feedforward: Flag = quantity("", "Whether the laws get the arm feedforward", default=False)
+    feedforward: Flag = quantity("", "Whether the laws receive the arm feedforward", default=False)
     adaptation: PayloadAdaptation | None = quantity(
         "", "Estimate of the mass at the tip, for feedforward and nominal inertias", default=None
     )

@@ -40,10 +40,10 @@ class Submission(Checked):
         law: Text of that file.
     """
 
-    student: str = quantity("", "Who submits it", min_length=1, max_length=LONGEST_NAME)
+    student: str = quantity("", "Name of the student", min_length=1, max_length=LONGEST_NAME)
     exercise: StepName = quantity("", "Name of the exercise")
     answers: dict[StepName, Answer] = quantity(
-        "", "What was predicted or chosen, by step", default={}, max_length=MAX_STEPS
+        "", "Predictions and choices, by step", default={}, max_length=MAX_STEPS
     )
     runs: dict[StepName, str] = quantity(
         "", "Ids of recorded runs, by step", default={}, max_length=MAX_STEPS
@@ -147,7 +147,7 @@ class SavedLaw(Checked):
 
     text: str = quantity("", "Text of a law's Python file")
     verdict: TrialVerdict = quantity("", "Outcome of the trial run")
-    feedback: str = quantity("", "The outcome in words")
+    feedback: str = quantity("", "Outcome as text")
     output: Annotated[str, Field(max_length=LONGEST_OUTPUT)] = quantity(
-        "", "End of its output if it failed", default=""
+        "", "Last lines of its output if it failed", default=""
     )

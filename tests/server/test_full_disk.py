@@ -80,7 +80,7 @@ def test_recording_ended_by_a_full_disk_is_listed_as_failed_with_its_readable_pa
             run = read_run(lab.client)
             assert run["state"] == "failed"
             assert "No space left" in run["message"]
-            assert f"What was written opens: {run['duration_s']:.6g} s" in run["message"]
+            assert f"The first {run['duration_s']:.6g} s were saved" in run["message"]
             assert run["duration_s"] >= 1.0
             path = f"/api/v1/runs/{run['id']}/samples"
             assert lab.client.get(path, params={"channels": "position_rad"}).is_success

@@ -37,10 +37,15 @@ class Cascade(LawParameters):
         "rad/s", "a: both poles of the link's loop", symbol="a", ge=5, le=150, default=45.1
     )
     motor_pole_rad_per_s: Number = quantity(
-        "rad/s", "Both poles of the motor's loop inside", symbol="a_m", ge=5, le=300, default=44.3
+        "rad/s",
+        "Both poles of the inner loop of the motor",
+        symbol="a_m",
+        ge=5,
+        le=300,
+        default=44.3,
     )
     stiffness_pole_rad_per_s: Number = quantity(
-        "rad/s", "p: both poles of the stiffness's", symbol="p", ge=5, le=150, default=32.9
+        "rad/s", "p: both poles of the stiffness loop", symbol="p", ge=5, le=150, default=32.9
     )
     link_observer_rad_per_s: Number = quantity(
         "rad/s", "ω of the observer of q", symbol="ω_q", ge=10, le=1000, default=340.0

@@ -52,7 +52,7 @@ class Structure(LawParameters):
         "1", "ζ: K_D = 2ζ B1 ω, of the motor's damper", symbol="ζ", ge=0.1, le=5, default=1.03
     )
     stiffness_pole_rad_per_s: Number = quantity(
-        "rad/s", "p of (s + p)², the stiffness's", symbol="p", ge=5, le=150, default=33.7
+        "rad/s", "p of (s + p)² of the stiffness", symbol="p", ge=5, le=150, default=33.7
     )
     observer_rad_per_s: Number = quantity(
         "rad/s", "β of its observer", symbol="β", ge=1, le=500, default=97.0

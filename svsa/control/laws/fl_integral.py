@@ -19,10 +19,10 @@ class IntegralPoles(LawParameters):
     """The position of all poles of either error polynomial on the real axis."""
 
     position_pole_rad_per_s: Number = quantity(
-        "rad/s", "a of (s + a)⁵, the position's", symbol="a", ge=5, le=150, default=54.6
+        "rad/s", "a of (s + a)⁵ of the position", symbol="a", ge=5, le=150, default=54.6
     )
     stiffness_pole_rad_per_s: Number = quantity(
-        "rad/s", "p of (s + p)³, the stiffness's", symbol="p", ge=5, le=150, default=32.9
+        "rad/s", "p of (s + p)³ of the stiffness", symbol="p", ge=5, le=150, default=32.9
     )
 
 

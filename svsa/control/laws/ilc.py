@@ -28,10 +28,10 @@ class Learning(LawParameters):
     """FL's poles, and period and filter of the learning."""
 
     position_pole_rad_per_s: Number = quantity(
-        "rad/s", "a of (s + a)⁴, the position's", symbol="a", ge=5, le=150, default=60.0
+        "rad/s", "a of (s + a)⁴ of the position", symbol="a", ge=5, le=150, default=60.0
     )
     stiffness_pole_rad_per_s: Number = quantity(
-        "rad/s", "p of (s + p)², the stiffness's", symbol="p", ge=5, le=150, default=40.0
+        "rad/s", "p of (s + p)² of the stiffness", symbol="p", ge=5, le=150, default=40.0
     )
     period_s: Number = quantity(
         "s", "Period of the reference and of the load", symbol="P", ge=1, le=60, default=5.0,

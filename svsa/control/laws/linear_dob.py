@@ -39,10 +39,10 @@ class PolesAndFilter(LawParameters):
     """
 
     position_pole_rad_per_s: Number = quantity(
-        "rad/s", "a of (s + a)⁴, the position's", symbol="a", ge=5, le=150, default=45.7
+        "rad/s", "a of (s + a)⁴ of the position", symbol="a", ge=5, le=150, default=45.7
     )
     stiffness_pole_rad_per_s: Number = quantity(
-        "rad/s", "p of (s + p)², the stiffness's", symbol="p", ge=5, le=150, default=31.6
+        "rad/s", "p of (s + p)² of the stiffness", symbol="p", ge=5, le=150, default=31.6
     )
     observer_rad_per_s: Number = quantity(
         "rad/s", "β of the Q-filters", symbol="β", ge=1, le=500, default=206.0

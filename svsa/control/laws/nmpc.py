@@ -14,8 +14,8 @@ The separate bounds of the two chains limit the size of load steps: from 2.5 N·
 motor 2 is at its limit for more than half of the time until the deflection reaches its limit. If
 the position has priority while motor 2 is at its limit, u1 = (y1 − a12 u2)/a11, it completes runs
 with 2.5 N·m instead of 2, recovers in 0.24 s instead of 0.21 s, and has a lower score; and of 1024
-settings none that completes Figure 4A on the rig bears 3.5 N·m (a slower prototype bore 4 N·m, with
-a peak of 8.0° instead of 6.4°). The limit of deflection is not part of the plan.
+settings none that completes Figure 4A on the rig withstands 3.5 N·m (a slower prototype withstood
+4 N·m, with a peak of 8.0° instead of 6.4°). The limit of deflection is not part of the plan.
 """
 
 from functools import lru_cache

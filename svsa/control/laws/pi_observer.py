@@ -34,10 +34,10 @@ class PolesAndObserver(LawParameters):
     """
 
     position_pole_rad_per_s: Number = quantity(
-        "rad/s", "a of (s + a)⁴, the position's", symbol="a", ge=5, le=150, default=59.0
+        "rad/s", "a of (s + a)⁴ of the position", symbol="a", ge=5, le=150, default=59.0
     )
     stiffness_pole_rad_per_s: Number = quantity(
-        "rad/s", "p of (s + p)², the stiffness's", symbol="p", ge=5, le=150, default=54.0
+        "rad/s", "p of (s + p)² of the stiffness", symbol="p", ge=5, le=150, default=54.0
     )
     observer_rad_per_s: Number = quantity(
         "rad/s", "ω: three poles of the observer of each body", symbol="ω", ge=5, le=500,

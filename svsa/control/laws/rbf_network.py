@@ -31,10 +31,10 @@ class Network(LawParameters):
     """Poles on the real axis, and rate and resolution of the learning."""
 
     position_pole_rad_per_s: Number = quantity(
-        "rad/s", "a of (s + a)⁴, the position's", symbol="a", ge=5, le=150, default=63.7
+        "rad/s", "a of (s + a)⁴ of the position", symbol="a", ge=5, le=150, default=63.7
     )
     stiffness_pole_rad_per_s: Number = quantity(
-        "rad/s", "p of (s + p)², the stiffness's", symbol="p", ge=5, le=150, default=112.0
+        "rad/s", "p of (s + p)² of the stiffness", symbol="p", ge=5, le=150, default=112.0
     )
     learning_rad_per_s: Number = quantity(
         "rad/s", "ω: learning rate of the networks", symbol="ω", ge=1, le=300, default=53.1

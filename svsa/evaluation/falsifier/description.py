@@ -53,7 +53,7 @@ def describe_neighborhood(finding: Finding | None) -> str:
     if finding is None or share is None:
         return ""
     return (
-        f"Near it (each number within 5 % of its range) {finding.neighbors_hurt} of"
+        f"Near it (each number within 5 % of its range) {finding.neighbors_failed} of"
         f" {finding.neighbors} random loads have the same effect: {format_share(share)}"
     )
 

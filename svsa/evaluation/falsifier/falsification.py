@@ -118,7 +118,7 @@ def _describe(
             runs=runs,
             version=__version__,
             neighbors=neighborhood and neighborhood.runs,
-            neighbors_hurt=neighborhood and neighborhood.hurt,
+            neighbors_failed=neighborhood and neighborhood.failed,
         ),
     )
 

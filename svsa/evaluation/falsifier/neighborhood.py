@@ -23,11 +23,11 @@ class Neighborhood(NamedTuple):
 
     Attributes:
         runs: Number of runs.
-        hurt: Number of runs with at least the same effect.
+        failed: Number of runs with at least the same effect.
     """
 
     runs: int
-    hurt: int
+    failed: int
 
 
 def measure_neighborhood(

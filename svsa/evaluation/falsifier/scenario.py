@@ -50,8 +50,8 @@ class Finding(Checked):
         "Number of random loads in its neighborhood, each value within 5 % of its range",
         default=None,
     )
-    neighbors_hurt: Whole | None = quantity(
-        "", "How many of those degraded the law as much", ge=0, default=None
+    neighbors_failed: Whole | None = quantity(
+        "", "Number of those with at least the same effect", ge=0, default=None
     )
 
     @model_validator(mode="before")
@@ -62,9 +62,9 @@ class Finding(Checked):
     @property
     def neighborhood(self) -> Interval | None:
         """Share of random loads near it with equal effect; None if none were run."""
-        if not self.neighbors or self.neighbors_hurt is None:
+        if not self.neighbors or self.neighbors_failed is None:
             return None
-        return estimate_share(self.neighbors_hurt, self.neighbors)
+        return estimate_share(self.neighbors_failed, self.neighbors)
 
 
 class LoadScenario(Checked):

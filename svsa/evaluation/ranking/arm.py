@@ -54,7 +54,7 @@ class ArmRow(Checked):
     """The result of a controller."""
 
     law: str = quantity("", "Name of the law")
-    feedforward: Flag = quantity("", "Whether it gets the arm feedforward")
+    feedforward: Flag = quantity("", "Whether it receives the arm feedforward")
     adaptive: Flag = quantity("", "Whether the payload is estimated")
     values: dict[str, Number] = quantity("", "Tuned values by name")
     before: Number = quantity("1", "Cost of the default parameters on the validation trials")

@@ -27,7 +27,9 @@ class Rank(Checked):
     """The rank of a row, and its comparison with the tuned NDOBC."""
 
     key: str = quantity("", "Name of the row")
-    rank: Whole = quantity("", "Rank from 1; rows without a significant difference share it", ge=1)
+    rank: Whole = quantity(
+        "", "Rank from 1; rows without a significant difference have the same rank", ge=1
+    )
     only_this: Whole = quantity("", "Trials in which only this row succeeded", ge=0)
     only_ndobc: Whole = quantity("", "Trials in which only the tuned NDOBC succeeded", ge=0)
     p_value: Number | None = quantity(

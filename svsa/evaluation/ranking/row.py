@@ -62,7 +62,7 @@ class Row(Checked):
 
     key: str = quantity("", "Name of the row")
     law: str = quantity("", "Name of the law")
-    variant: Variant = quantity("", "Which parameters")
+    variant: Variant = quantity("", "Parameter set")
     version: str = quantity("", "Version of the lab that measured it")
     tuning: TunedLaw | None = quantity(
         "", "Source and values of the tuned parameters", default=None

@@ -53,13 +53,13 @@ class Study(Checked):
         max_length=MAX_LAWS,
         default=(PAPERS_LAW,),
     )
-    vary: Variations = quantity("", "What varies", default=())
+    vary: Variations = quantity("", "Variations", default=())
     actuators: dict[str, dict[str, Any]] = quantity(
         "", "Settings of each actuator that varies, by its name", default={}
     )
-    runs: Whole = quantity("", "How many samples", ge=1, le=MAX_RUNS)
+    runs: Whole = quantity("", "Number of samples", ge=1, le=MAX_RUNS)
     seed: Whole = quantity("", "Seed of all samples", ge=0, le=2**63 - 1, default=0)
-    sampling: Sampling = quantity("", "How is drawn", default="random")
+    sampling: Sampling = quantity("", "Sampling method", default="random")
     duration_s: Number = quantity("s", "Duration of a run", gt=0, le=3600, default=DURATION_S)
     measure_from_s: Number = quantity("s", "Start of the measured window", ge=0, default=0.0)
     metrics: tuple[Metric, ...] = quantity(

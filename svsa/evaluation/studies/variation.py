@@ -17,7 +17,7 @@ _BETWEEN = 0.37
 class _Variation(Checked):
     """A variation of a setting; its path: see `svsa.evaluation.studies.setting`."""
 
-    path: str = quantity("", "Setting that varies, as actuator.link_inertia_kg_m2")
+    path: str = quantity("", "Setting that varies, such as actuator.link_inertia_kg_m2")
     relative: Flag = quantity("", "Whether values are factors of the base value", default=False)
 
     @property

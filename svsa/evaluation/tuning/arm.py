@@ -53,7 +53,7 @@ class ArmController(NamedTuple):
 
     Attributes:
         law: Name of the law.
-        feedforward: Whether it gets the arm feedforward.
+        feedforward: Whether it receives the arm feedforward.
         adaptive: Whether the payload is estimated; with feedforward.
     """
 

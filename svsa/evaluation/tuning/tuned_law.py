@@ -33,7 +33,7 @@ class TunedLaw(Checked):
 
     law: str = quantity("", "Name of the law")
     version: str = quantity("", "Version of the lab that tuned it")
-    method: str = quantity("", "How the parameters were searched")
+    method: str = quantity("", "Search method of the parameters")
     candidates: Whole = quantity("", "Number of candidates evaluated", ge=0)
     trials: Whole = quantity("", "Training trials of each candidate, half of each family", ge=1)
     validation: Whole = quantity("", "Validation trials of the best ten", ge=1)

@@ -17,8 +17,10 @@ from svsa.inputs.checked import Checked, Number, Whole, quantity
 class EmulatorClock(Checked):
     """The clock of a node: every whole ms, starting at `phase_s`."""
 
-    phase_s: Number = quantity("s", "First beat after the emulator's start", ge=0, le=0.001)
-    drift: Number = quantity("1", "How much longer its ms is", ge=-0.01, le=0.01, default=0.0)
+    phase_s: Number = quantity("s", "First message after the emulator's start", ge=0, le=0.001)
+    drift: Number = quantity(
+        "1", "Relative drift of its clock, positive if slow", ge=-0.01, le=0.01, default=0.0
+    )
 
 
 class EmulatedMotor(EmulatorClock):
@@ -31,12 +33,16 @@ class EmulatedMotor(EmulatorClock):
     """The field that distinguishes two drives of the family on one bus."""
 
     drive: str = quantity("", "Family of the drive", default=DEFAULT_DRIVE)
-    counts_per_rev: Whole = quantity("1", "Counts a motor turn", ge=4, le=10**7, default=2000)
-    gear_ratio: Number = quantity("1", "Gearbox N : 1", gt=0, le=10_000, default=50.0)
+    counts_per_rev: Whole = quantity(
+        "1", "Counts per motor revolution", ge=4, le=10**7, default=2000
+    )
+    gear_ratio: Number = quantity("1", "Gear ratio N of N : 1", gt=0, le=10_000, default=50.0)
     torque_constant_nm_per_a: Number = quantity("N·m/A", "K_t of the winding", gt=0, le=10)
     efficiency: Number = quantity("1", "η of the gearbox", gt=0, le=1, default=0.9)
-    sign: Sign = quantity("", "1 where positive current grows angle and counts", default=1)
-    peak_current_a: Number = quantity("A", "Largest current of the drive", gt=0, le=32, default=15)
+    sign: Sign = quantity(
+        "", "1 if a positive current increases angle and counts, otherwise −1", default=1
+    )
+    peak_current_a: Number = quantity("A", "Maximum current of the drive", gt=0, le=32, default=15)
 
     @property
     def torque_nm_per_a(self) -> float:

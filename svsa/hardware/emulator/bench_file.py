@@ -21,7 +21,7 @@ EMULATOR_BENCH = Path(__file__).parent / "bench.toml"
 PEAK_SHARE, NOMINAL_SHARE = 1.25, 0.75
 """Peak current over that of the torque limit; continuous over peak current."""
 CORNER_OVER_POLE = 5.0
-"""Corner of the state estimator over the poles of the position."""
+"""Bandwidth of the state estimator relative to the poles of the position."""
 MOTOR_RPM = 19_000.0
 SPEED_RAD_PER_S = 30.0
 CALIBRATED = {"date": "2026-11-21T00:00:00+00:00", "by": "the emulator"}

@@ -12,51 +12,51 @@ class DropFrames(Checked):
     """Frames of a node are lost, each with this probability (seeded)."""
 
     kind: Literal["drop"] = "drop"
-    node: Node = quantity("", "Whose frames")
-    probability: Number = quantity("1", "Of each frame", gt=0, le=1, default=1.0)
+    node: Node = quantity("", "Sender of the frames")
+    probability: Number = quantity("1", "Probability for each frame", gt=0, le=1, default=1.0)
 
 
 class LateFrames(Checked):
     """Frames of a node are late."""
 
     kind: Literal["late"] = "late"
-    node: Node = quantity("", "Whose frames")
-    delay_s: Number = quantity("s", "How late", gt=0, le=10)
+    node: Node = quantity("", "Sender of the frames")
+    delay_s: Number = quantity("s", "Delay", gt=0, le=10)
 
 
 class FrozenEncoder(Checked):
     """Counts that stay as they are."""
 
     kind: Literal["freeze"] = "freeze"
-    node: Node = quantity("", "Which encoder")
+    node: Node = quantity("", "Encoder")
 
 
 class ReversedEncoder(Checked):
     """Counts that go the wrong way."""
 
     kind: Literal["reverse_encoder"] = "reverse_encoder"
-    node: Node = quantity("", "Which encoder")
+    node: Node = quantity("", "Encoder")
 
 
 class ReversedMotor(Checked):
     """Torque with the wrong sign."""
 
     kind: Literal["reverse_motor"] = "reverse_motor"
-    node: DriveName = quantity("", "Which motor")
+    node: DriveName = quantity("", "Motor")
 
 
 class BrownOut(Checked):
     """A drive that restarts: no mode, position zero."""
 
     kind: Literal["brown_out"] = "brown_out"
-    node: DriveName = quantity("", "Which drive")
+    node: DriveName = quantity("", "Drive")
 
 
 class Stall(Checked):
     """A drive in stall protection: no torque, an error frame every 100 ms."""
 
     kind: Literal["stall"] = "stall"
-    node: DriveName = quantity("", "Which drive")
+    node: DriveName = quantity("", "Drive")
 
 
 class Unplugged(Checked):
@@ -65,21 +65,21 @@ class Unplugged(Checked):
     """
 
     kind: Literal["unplugged"] = "unplugged"
-    node: DriveName = quantity("", "Which drive")
+    node: DriveName = quantity("", "Drive")
 
 
 class ZeroedCounter(Checked):
     """A drive that sets its position to zero without leaving its mode."""
 
     kind: Literal["zeroed_counter"] = "zeroed_counter"
-    node: DriveName = quantity("", "Which drive")
+    node: DriveName = quantity("", "Drive")
 
 
 class Silence(Checked):
     """A drive without power."""
 
     kind: Literal["silent"] = "silent"
-    node: DriveName = quantity("", "Which drive")
+    node: DriveName = quantity("", "Drive")
 
 
 class BusErrors(Checked):
@@ -93,8 +93,8 @@ class CurrentOffset(Checked):
     """A drive with more current than commanded."""
 
     kind: Literal["current_offset"] = "current_offset"
-    node: DriveName = quantity("", "Which drive")
-    offset_a: Number = quantity("A", "How much more", ge=-15, le=15)
+    node: DriveName = quantity("", "Drive")
+    offset_a: Number = quantity("A", "Additional current", ge=-15, le=15)
 
 
 EmulatorFault = Annotated[

@@ -39,9 +39,9 @@ _PHASES_S = (0.0003, 0.0005)
 class EmulatedDeflection(EmulatorClock):
     """The deflection encoder, a separate node: counts as i32 big-endian, every ms."""
 
-    can_id: Whole = quantity("", "Its standard identifier", ge=0, le=0x7FF, default=0x700)
-    counts_per_rev: Whole = quantity("1", "Counts a turn", ge=4, le=10**8, default=8000)
-    sign: Sign = quantity("", "1 where counts grow with φ = q − θ1", default=1)
+    can_id: Whole = quantity("", "Standard CAN identifier", ge=0, le=0x7FF, default=0x700)
+    counts_per_rev: Whole = quantity("1", "Counts per revolution", ge=4, le=10**8, default=8000)
+    sign: Sign = quantity("", "1 if counts increase with φ = q − θ1, otherwise −1", default=1)
     offset_counts: Whole = quantity("counts", "Counts at φ = 0", ge=-(2**30), le=2**30, default=0)
 
 

@@ -10,11 +10,11 @@ class CanNodeSettings(Checked):
     """Identifier of the frame, and position of the counts in it."""
 
     id: Whole = quantity("", "Identifier of the frame", ge=0, le=0x1FFFFFFF)
-    extended: Flag = quantity("", "A 29-bit identifier", default=False)
+    extended: Flag = quantity("", "Whether the identifier has 29 bits", default=False)
     offset: Whole = quantity("byte", "First byte of the counts", ge=0, le=7, default=0)
-    width: Whole = quantity("bit", "16, 24 or 32", ge=16, le=32, default=32)
-    big_endian: Flag = quantity("", "Highest byte first", default=True)
-    signed: Flag = quantity("", "Two's complement", default=True)
+    width: Whole = quantity("bit", "Length of the counts: 16, 24 or 32", ge=16, le=32, default=32)
+    big_endian: Flag = quantity("", "Whether the highest byte is first", default=True)
+    signed: Flag = quantity("", "Whether the counts are signed (two's complement)", default=True)
 
 
 class CanNode:

@@ -19,10 +19,10 @@ _READ_TIMEOUT_S = 0.001
 class CounterSettings(Checked):
     """The counter, and the encoder's lines."""
 
-    counter: str = quantity("", "Counter, as Dev1/ctr0")
-    lines: Whole = quantity("1", "Lines (pulses) a turn, before quadrature", ge=1, le=10**7)
-    a_terminal: str | None = quantity("", "Input of signal A, if not the usual one", default=None)
-    b_terminal: str | None = quantity("", "Input of signal B, if not the usual one", default=None)
+    counter: str = quantity("", "Counter, such as Dev1/ctr0")
+    lines: Whole = quantity("1", "Lines (pulses) per revolution, before quadrature", ge=1, le=10**7)
+    a_terminal: str | None = quantity("", "Input of signal A, if not the default one", default=None)
+    b_terminal: str | None = quantity("", "Input of signal B, if not the default one", default=None)
 
 
 class NidaqmxCounter:

@@ -17,7 +17,7 @@ _NUMBER = re.compile(rb"[+-]?[0-9]{1,10}")
 class SerialLineSettings(Checked):
     """The serial port and the format of the counts."""
 
-    port: str = quantity("", "Serial port, as /dev/ttyUSB0 or COM3")
+    port: str = quantity("", "Serial port, such as /dev/ttyUSB0 or COM3")
     baudrate: Whole = quantity("bit/s", "Rate", ge=1200, le=12_000_000, default=1_000_000)
     binary: Flag = quantity(
         "",

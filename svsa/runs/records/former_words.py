@@ -24,7 +24,7 @@ SETTINGS = {"realism": "effects"}
 """Settings in the catalogue of runs."""
 RESULTS = {"told": "description", "draws": "trials", "draws_held": "trials_held"}
 """Fields of grades and of entries of the leaderboard."""
-SEARCHES = {"harm": "cost"}
+SEARCHES = {"harm": "cost", "neighbors_hurt": "neighbors_failed"}
 """Fields of an adversary's file, and of the origin of a scenario."""
 SCENARIOS = {"unloading": "load_removal", "draw_": "trial_", "unloading_": "load_removal_"}
 """Scenarios of the ranking, by the beginning of their names."""

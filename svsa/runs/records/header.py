@@ -59,24 +59,26 @@ class RecordHeader(Checked):
         ParameterError: If a value is invalid.
     """
 
-    format: Whole = quantity("", "Version of this layout", ge=1, default=FORMAT)
+    format: Whole = quantity("", "Version of the format", ge=1, default=FORMAT)
     version: str = quantity("", "Version of svsa that recorded it")
-    run_id: str = quantity("", "Identity of the run: letters, digits, - and _")
-    created: str = quantity("", "When recording began, UTC, ISO 8601")
-    session: str = quantity("", "Session that was recorded")
-    plant: PlantKind = quantity("", "What lane 1 was", default="simulated")
-    name: str = quantity("", "What people call the run", default="")
-    tags: tuple[str, ...] = quantity("", "Words to find the run by", default=())
-    notes: str = quantity("", "What people wrote about the run", default="")
-    owner: str = quantity("", "Id of who recorded it, in a class; empty elsewhere", default="")
+    run_id: str = quantity("", "Id of the run: letters, digits, - and _")
+    created: str = quantity("", "Start of the recording, UTC, ISO 8601")
+    session: str = quantity("", "Recorded session")
+    plant: PlantKind = quantity("", "Plant of lane 1", default="simulated")
+    name: str = quantity("", "Name of the run", default="")
+    tags: tuple[str, ...] = quantity("", "Tags", default=())
+    notes: str = quantity("", "Notes of the user", default="")
+    owner: str = quantity(
+        "", "Id of the user who recorded it, in a class; otherwise empty", default=""
+    )
     branch_of: BranchPoint | None = quantity(
-        "", "Run and tick from which this one went on", default=None
+        "", "Run and tick from which this one continues", default=None
     )
     lanes: tuple[str, ...] = quantity("", "Name of every lane, in the order of the samples")
     configuration: dict[str, Any] = quantity("", "The run's configuration at tick 0")
     seed: Whole = quantity("", "Seed of the sensor noise", ge=0, le=2**63 - 1)
     period_s: Number = quantity("s", "Control period T", gt=0, le=10)
-    steps: Whole = quantity("", "Runge–Kutta steps a control period", ge=1, default=1)
+    steps: Whole = quantity("", "Runge–Kutta steps per control period", ge=1, default=1)
     channels: tuple[Channel, ...] = quantity("", "Name, unit and label of every channel")
 
     @model_validator(mode="after")

@@ -34,7 +34,7 @@ class ArmResult:
         samples: (2, ticks, channels), SI, columns as `svsa.actuators.signals.CHANNELS`.
         payload_kg: Estimated mass at the tip, (ticks,), kg; 0 without adaptation.
         fault: Why the run ended early, or None; its `lane` is 0 for joint 1 and 1 for joint 2.
-        steps: Runge–Kutta steps a control period.
+        steps: Runge–Kutta steps per control period.
         commands: Changes during the run.
         comparisons: Results of the second arm, if there is one.
         number: Number of the arm, from 0; 1 is the comparison.
@@ -191,7 +191,7 @@ def build_arm_results(
         samples: (lanes, ticks, channels), two lanes for each arm.
         masses: (arms, ticks), estimated mass at the tip, kg.
         fault: Why the run ended early, or None.
-        steps: Runge–Kutta steps a control period.
+        steps: Runge–Kutta steps per control period.
         commands: Changes during the run.
 
     Returns:

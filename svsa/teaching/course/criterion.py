@@ -18,8 +18,8 @@ class Criterion(Checked):
 
     title: str = quantity("", "Text of the criterion", min_length=1, max_length=200)
     measure: StepName
-    low: Number | None = quantity("", "Least value, in its unit", default=None)
-    high: Number | None = quantity("", "Greatest value, in its unit", default=None)
+    low: Number | None = quantity("", "Minimum value, in its unit", default=None)
+    high: Number | None = quantity("", "Maximum value, in its unit", default=None)
     points: Number = quantity("", "Points", gt=0, le=MAX_POINTS, default=1.0)
     right: FeedbackText = quantity("", "Feedback if it is right", default="")
     too_low: FeedbackText = quantity("", "Feedback below the range", default="")

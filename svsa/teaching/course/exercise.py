@@ -28,11 +28,11 @@ class Exercise(Checked):
     """
 
     name: StepName
-    number: Whole = quantity("", "Place in the course", ge=1, le=1000)
-    title: str = quantity("", "What it is called", min_length=1, max_length=120)
-    goal: str = quantity("", "What one can do after it", min_length=1, max_length=400)
-    minutes: Whole = quantity("min", "How long it takes", ge=1, le=600, default=10)
-    text: str = quantity("", "What stands before its first step, in Markdown", default="")
+    number: Whole = quantity("", "Position in the course", ge=1, le=1000)
+    title: str = quantity("", "Title", min_length=1, max_length=120)
+    goal: str = quantity("", "Learning goal", min_length=1, max_length=400)
+    minutes: Whole = quantity("min", "Duration", ge=1, le=600, default=10)
+    text: str = quantity("", "Text before its first step, in Markdown", default="")
     steps: Annotated[tuple[Step, ...], Field(min_length=1, max_length=MAX_STEPS)]
 
     @model_validator(mode="after")

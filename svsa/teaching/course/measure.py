@@ -58,20 +58,22 @@ class Measure(Checked):
     """
 
     name: StepName
-    label: str = quantity("", "What it is called", min_length=1, max_length=200)
+    label: str = quantity("", "Label", min_length=1, max_length=200)
     channel: ChannelName | None = quantity("", "Channel of the samples", default=None)
     setting: str = quantity("", "Path in the configuration", default="", max_length=200)
     tip_direction_rad: Number | None = quantity(
         "rad", "Direction of the tip's stiffness", ge=-math.pi, le=math.pi, default=None
     )
-    statistic: Statistic = quantity("", "What is taken of it", default="mean")
+    statistic: Statistic = quantity("", "Statistic of the samples", default="mean")
     lane: Whole = quantity("", "Number of the lane", ge=1, le=MAX_LANES, default=1)
-    from_s: Number = quantity("s", "Begin of the window", ge=0, default=0.0)
-    to_s: Number | None = quantity("s", "End of it; left out, the run's", gt=0, default=None)
-    of: ChannelName | None = quantity("", "Channel that crosses", default=None)
+    from_s: Number = quantity("s", "Start of the window", ge=0, default=0.0)
+    to_s: Number | None = quantity(
+        "s", "End of the window; by default that of the run", gt=0, default=None
+    )
+    of: ChannelName | None = quantity("", "Channel that crosses the level", default=None)
     level: Number | None = quantity("", "Level, in the unit of its channel", default=None)
-    unit: str = quantity("", "Unit; left out, the channel's", default="", max_length=20)
-    per: StepName | None = quantity("", "Measure that it is divided by", default=None)
+    unit: str = quantity("", "Unit; by default that of the channel", default="", max_length=20)
+    per: StepName | None = quantity("", "Measure by which it is divided", default=None)
 
     @model_validator(mode="after")
     def _check(self) -> Self:

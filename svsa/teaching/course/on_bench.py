@@ -28,9 +28,9 @@ class OnBench(Checked):
     `by_hand` describes the actions of the operator at the times of the loads.
     """
 
-    loads: tuple[Load, ...] | None = quantity("", "Loads, on the link alone", default=None)
-    by_hand: str = quantity("", "What is done by hand", max_length=300, default="")
-    criteria: tuple[Criterion, ...] | None = quantity("", "Judged", default=None, max_length=20)
+    loads: tuple[Load, ...] | None = quantity("", "Loads, on the link only", default=None)
+    by_hand: str = quantity("", "Manual action", max_length=300, default="")
+    criteria: tuple[Criterion, ...] | None = quantity("", "Criteria", default=None, max_length=20)
 
 
 def check_for_bench(

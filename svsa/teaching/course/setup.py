@@ -63,9 +63,9 @@ class Setup(Checked):
     comparisons: tuple[InstalledLaw, ...] = quantity(
         "", "Laws of the comparison lanes", default=(), max_length=MAX_LANES - 1
     )
-    duration_s: Number = quantity("s", "How long the run is", gt=0, le=LONGEST_S, default=20.0)
-    free: tuple[Free, ...] = quantity("", "What the student may choose", default=())
-    bench: OnBench | None = quantity("", "How it is run on a bench", default=None)
+    duration_s: Number = quantity("s", "Duration of the run", gt=0, le=LONGEST_S, default=20.0)
+    free: tuple[Free, ...] = quantity("", "Settings that the student may choose", default=())
+    bench: OnBench | None = quantity("", "Setup on a bench", default=None)
 
     @model_validator(mode="after")
     def _check_base(self) -> Self:

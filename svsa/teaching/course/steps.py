@@ -17,8 +17,8 @@ class _Step(Checked):
     """A step: its name, its title, and its text in Markdown with equations."""
 
     name: StepName
-    title: str = quantity("", "What it is called", min_length=1, max_length=120)
-    text: str = quantity("", "Its text, from the body of the file", min_length=1)
+    title: str = quantity("", "Title", min_length=1, max_length=120)
+    text: str = quantity("", "Text, from the body of the file", min_length=1)
 
 
 class Read(_Step):
@@ -40,15 +40,15 @@ class Predict(_Step):
 
     kind: Literal["predict"] = "predict"
     asks: str = quantity("", "Name of the predicted value", min_length=1, max_length=200)
-    unit: str = quantity("", "Its unit", max_length=20)
+    unit: str = quantity("", "Unit", max_length=20)
     low: Number = quantity("", "Least plausible value")
     high: Number = quantity("", "Greatest plausible value")
     judged_by: str = quantity(
-        "", "STEP.MEASURE that judges it", pattern=r"^[a-z0-9-]+\.[a-z0-9-]+$"
+        "", "STEP.MEASURE with which it is compared", pattern=r"^[a-z0-9-]+\.[a-z0-9-]+$"
     )
-    within: Number = quantity("1", "Share for all points", gt=0, le=1000, default=0.1)
-    half_within: Number = quantity("1", "Share for half of them", gt=0, le=1000, default=0.5)
-    by_factor: Flag = quantity("", "By how many times, not by how much", default=False)
+    within: Number = quantity("1", "Deviation for full points", gt=0, le=1000, default=0.1)
+    half_within: Number = quantity("1", "Deviation for half points", gt=0, le=1000, default=0.5)
+    by_factor: Flag = quantity("", "Whether the deviation is a ratio", default=False)
     points: Number = quantity("", "Points", gt=0, le=MAX_POINTS, default=2.0)
     feedback: FeedbackText = quantity("", "Explanation, shown with the assessment", default="")
 
@@ -67,8 +67,8 @@ class Experiment(_Step, Setup):
     """A run with a setup, its measures and its criteria."""
 
     kind: Literal["experiment"] = "experiment"
-    measures: tuple[Measure, ...] = quantity("", "What is measured", min_length=1, max_length=20)
-    criteria: tuple[Criterion, ...] = quantity("", "What is judged", default=(), max_length=20)
+    measures: tuple[Measure, ...] = quantity("", "Measures", min_length=1, max_length=20)
+    criteria: tuple[Criterion, ...] = quantity("", "Criteria", default=(), max_length=20)
 
     @model_validator(mode="after")
     def _check_measures(self) -> Self:
@@ -78,7 +78,7 @@ class Experiment(_Step, Setup):
             if measure.name in names[:number]:
                 raise ParameterError(Violation(f"{where}.name", measure.name, "", "given once"))
             if measure.per is not None and measure.per not in names[:number]:
-                bound = "a measure that stands before this one"
+                bound = "the name of a measure earlier in the list"
                 raise ParameterError(Violation(f"{where}.per", measure.per, "", bound))
             if measure.lane > len(self.configuration.lanes) and "comparisons" not in self.free:
                 bound = f"1 to {len(self.configuration.lanes)}, of the lanes that run"
@@ -141,7 +141,7 @@ class Option(Checked):
     name: StepName
     text: str = quantity("", "The answer", min_length=1, max_length=500)
     right: Flag = quantity("", "Whether it is right", default=False)
-    feedback: FeedbackText = quantity("", "Shown if it was chosen", default="")
+    feedback: FeedbackText = quantity("", "Feedback if it was chosen", default="")
 
 
 class Explain(_Step):
@@ -166,7 +166,7 @@ class SubmitStep(_Step):
     """The last step: submit the exercise; `law` is whether a law's Python file is included."""
 
     kind: Literal["submit"] = "submit"
-    law: Flag = quantity("", "Whether a law's file belongs to it", default=False)
+    law: Flag = quantity("", "Whether it includes the file of a law", default=False)
 
 
 Step = Annotated[Read | Predict | Experiment | Explain | SubmitStep, BY_KIND]

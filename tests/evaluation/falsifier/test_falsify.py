@@ -211,7 +211,7 @@ def test_counterexample_reports_the_share_of_its_neighborhood():
 
     middle, end = measure(0.23), measure(LONGEST_S - 0.004)
     assert middle.runs == end.runs == neighborhood.RUNS
-    assert 0 < end.hurt < middle.hurt < middle.runs
+    assert 0 < end.failed < middle.failed < middle.runs
     assert middle == measure(0.23)
 
 
@@ -219,9 +219,11 @@ def test_saved_scenario_keeps_its_neighborhood_and_old_file_has_none(tmp_path):
     found = falsify(build_adversary(), runs=4000)
     write_scenario(tmp_path / "found.toml", found.scenario)
     finding = read_scenario(tmp_path / "found.toml").found
-    assert (finding.neighbors, finding.neighbors_hurt) == found.neighborhood
-    assert finding.neighborhood == estimate_share(found.neighborhood.hurt, found.neighborhood.runs)
-    assert f"{finding.neighbors_hurt} of 256 random loads" in describe_neighborhood(finding)
-    before = finding.changed(neighbors=None, neighbors_hurt=None)
+    assert (finding.neighbors, finding.neighbors_failed) == found.neighborhood
+    assert finding.neighborhood == estimate_share(
+        found.neighborhood.failed, found.neighborhood.runs
+    )
+    assert f"{finding.neighbors_failed} of 256 random loads" in describe_neighborhood(finding)
+    before = finding.changed(neighbors=None, neighbors_failed=None)
     assert before.neighborhood is None
     assert describe_neighborhood(before) == ""

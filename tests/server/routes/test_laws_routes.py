@@ -19,7 +19,7 @@ def test_every_installed_law_describes_itself(lab: Lab) -> None:
     assert integral["parameters"][0] == {
         "name": "position_pole_rad_per_s",
         "symbol": "a",
-        "meaning": "a of (s + a)⁵, the position's",
+        "meaning": "a of (s + a)⁵ of the position",
         "unit": "rad/s",
         "kind": "number",
         "default": 54.6,

@@ -30,13 +30,13 @@ class MoteusSettings(MotorSettings):
     )
     counts_per_rev: Whole | None = quantity(
         "1",
-        "Counts a motor turn: the controller reports hundred-thousandths of one",
+        "Counts per motor revolution: the controller reports 1/100 000 of one",
         ge=COUNTS_PER_REV,
         le=COUNTS_PER_REV,
         default=COUNTS_PER_REV,
     )
     torque_constant_nm_per_a: Number | None = quantity(
-        "N·m/A", "K_t of the winding, as the controller has it: it takes a torque", gt=0, le=10
+        "N·m/A", "K_t of the winding as set in the controller, which receives a torque", gt=0, le=10
     )
 
     @property
@@ -52,7 +52,11 @@ class EmulatedMoteusMotor(EmulatedMotor):
 
     id: Whole = quantity("", _ID, ge=1, le=127)
     counts_per_rev: Whole = quantity(
-        "1", "Counts a motor turn", ge=COUNTS_PER_REV, le=COUNTS_PER_REV, default=COUNTS_PER_REV
+        "1",
+        "Counts per motor revolution",
+        ge=COUNTS_PER_REV,
+        le=COUNTS_PER_REV,
+        default=COUNTS_PER_REV,
     )
 
     @property

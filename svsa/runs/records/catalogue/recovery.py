@@ -138,7 +138,7 @@ def describe(folder: Path, failure: str = "") -> dict[str, Any]:
     except (RecordError, OSError) as error:
         return files | {"state": "damaged", "message": f"{error} {describe_readable(folder)}"}
     if failure:
-        saved = f"What was written opens: {record.duration_s:.6g} s."
+        saved = f"The first {record.duration_s:.6g} s were saved and can be opened."
         changes |= {"state": "failed", "message": f"{failure} {saved}"}
     return files | changes
 

@@ -15,13 +15,18 @@ class Encoders(Checked):
     """Quantised positions: of both motors before their gearbox, and of the deflection."""
 
     motor_counts_per_rev: Whole = quantity(
-        "1", "Motor counts a turn", symbol="Counts, motors", ge=4, le=10**7, default=2000
+        "1", "Motor counts per revolution", symbol="Counts, motors", ge=4, le=10**7, default=2000
     )
     gear_ratio: Number = quantity(
         "1", "Motor gearboxes N : 1", symbol="Gear ratio", ge=1, le=1000, default=50.0
     )
     deflection_counts_per_rev: Whole = quantity(
-        "1", "Deflection counts a turn", symbol="Counts, deflection", ge=4, le=10**8, default=8000
+        "1",
+        "Deflection counts per revolution",
+        symbol="Counts, deflection",
+        ge=4,
+        le=10**8,
+        default=8000,
     )
 
 

@@ -8,7 +8,7 @@ class StateEstimation(Checked):
     """Velocities (and positions) from measured positions, by predictor and corrector."""
 
     corner_rad_per_s: Number = quantity(
-        "rad/s", "Corner of the corrector", symbol="Corner", ge=1, le=2000, default=200.0
+        "rad/s", "Bandwidth of the corrector", symbol="Corner", ge=1, le=2000, default=200.0
     )
 
 

@@ -21,7 +21,12 @@ class Friction(Checked):
         "N·m", "Coulomb friction of motor 2", symbol="Coulomb, motor 2", ge=0, le=50, default=0.1
     )
     static_ratio: Number = quantity(
-        "1", "Breakaway over Coulomb", symbol="Breakaway ratio", ge=1, le=5, default=1.3
+        "1",
+        "Ratio of breakaway to Coulomb friction",
+        symbol="Breakaway ratio",
+        ge=1,
+        le=5,
+        default=1.3,
     )
     stribeck_rad_per_s: Number = quantity("rad/s", "Stribeck velocity", ge=1e-3, le=10, default=0.1)
 

@@ -7,6 +7,6 @@ EFFECT = Effect(
     name="torque_limits",
     place=80,
     kind=Flag,
-    field=quantity("", "Torques limited", default=True),
+    field=quantity("", "Limits of the torques", default=True),
     words="no torque limits",
 )

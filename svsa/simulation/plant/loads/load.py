@@ -35,7 +35,7 @@ class AnyLoad(Checked):
             onset; it reads its numbers, A to D of row i, with `read`. None for a constant torque.
         first: Numeric fields of its form besides the torque, with initial values; None if it has no
             form.
-        start_s: Session time of onset, s.
+        start_s: Session time of the onset, s.
     """
 
     acts_as: ClassVar[int] = TORQUE
@@ -46,7 +46,7 @@ class AnyLoad(Checked):
     if TYPE_CHECKING:
         kind: Any
 
-    start_s: Number | None = quantity("s", "Session time of onset", ge=0, le=1e6, default=None)
+    start_s: Number | None = quantity("s", "Session time of the onset", ge=0, le=1e6, default=None)
 
     def get_duration(self) -> float:
         """Return the duration of the load.

@@ -82,7 +82,11 @@ class _Chirp(AnyReference):
     )
     duration_s: Number = quantity("s", "Duration T", symbol="Duration", ge=0.5, le=3600)
     taper_s: Number = quantity(
-        "s", "Time in which the amplitude rises, and falls at the end", ge=0.1, le=60, default=0.25
+        "s",
+        "Duration of the rise of the amplitude, and of its fall at the end",
+        ge=0.1,
+        le=60,
+        default=0.25,
     )
     transition_s: Number = quantity(
         "s", "Duration of the transition from the previous reference", **TRANSITION

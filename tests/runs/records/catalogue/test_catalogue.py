@@ -59,7 +59,7 @@ def test_failed_recording_is_listed_as_failed(catalogue: Catalogue) -> None:
     entry = catalogue.finish("run-1", recorder.close())
     assert (entry.state, entry.ticks) == ("failed", 10)
     assert "jump" in entry.message
-    assert "What was written opens: 0.01 s." in entry.message
+    assert "The first 0.01 s were saved and can be opened." in entry.message
 
 
 def test_failed_recording_is_not_listed_as_recording(catalogue: Catalogue) -> None:

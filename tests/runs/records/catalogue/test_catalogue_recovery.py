@@ -38,7 +38,9 @@ def test_next_start_completes_the_recording_of_a_killed_server(catalogue: Catalo
     again.recover()
     entry = again.get("run-9")
     assert (entry.state, entry.ticks) == ("failed", 400)
-    assert entry.message == "The recording was cut off. What was written opens: 0.4 s."
+    assert (
+        entry.message == "The recording was cut off. The first 0.4 s were saved and can be opened."
+    )
     assert entry.metrics is not None
     assert not (again.find_folder("run-9") / STREAM_FILE).exists()
     assert list(again.index()) == [(0, 0)]

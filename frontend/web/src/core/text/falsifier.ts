@@ -57,8 +57,8 @@ export const falsifierText = {
     found: (law: string, outcome: string) => `${law}: ${outcome}`,
     foundAt: (run: number, runs: number, seed: number) =>
       `found at run ${run.toLocaleString("en")} of ${runs.toLocaleString("en")}, seed ${seed}`,
-    neighborhood: (hurt: number, runs: number, share: string) =>
-      `${hurt} of ${runs} random loads near it fail equally: ${share}`,
+    neighborhood: (failed: number, runs: number, share: string) =>
+      `${failed} of ${runs} random loads near it fail equally: ${share}`,
     neighborhoodHint:
       "Each parameter of the load is sampled within 5 % of its range. A small share means an isolated case: slightly different loads do not fail. Equally: a fault, or, if there is none, at least 95 % of the cost. 95 % interval",
     lasts: (duration: string) => `run length ${duration} s`,

@@ -74,7 +74,7 @@ interface Finding {
   runs: number;
   seed: number;
   neighbors?: number;
-  neighbors_hurt?: number;
+  neighbors_failed?: number;
 }
 export const findingOf = (one: Scenario): Finding | null => (one.found as Finding) ?? null;
 

@@ -84,7 +84,7 @@ function Row({ one, lineStyle, onDraw }: RowProps) {
 
 /** Selection of the laws to run. */
 function Choice() {
-  const hurt = scenario.value && findingOf(scenario.value)?.law;
+  const tested = scenario.value && findingOf(scenario.value)?.law;
   return (
     <details class="falsifier-choice">
       <summary>{words.choice}</summary>
@@ -97,8 +97,8 @@ function Choice() {
         >
           {words.all}
         </button>
-        {hurt && (
-          <button type="button" class="button" onClick={() => setLaws(baselinesOf(hurt))}>
+        {tested && (
+          <button type="button" class="button" onClick={() => setLaws(baselinesOf(tested))}>
             {words.few}
           </button>
         )}

@@ -82,7 +82,7 @@ function Facts({ scenario }: { scenario: Scenario }) {
       {finding?.neighbors && shownTrace.value?.neighborhood && (
         <p title={words.neighborhoodHint}>
           {words.neighborhood(
-            finding.neighbors_hurt ?? 0,
+            finding.neighbors_failed ?? 0,
             finding.neighbors,
             formatShare(shownTrace.value.neighborhood),
           )}

@@ -92,7 +92,7 @@ export function Start() {
   const chosen = source ?? first.name;
   const from = known.find(({ name }) => name === chosen);
   const form = from && { ...readForm(from.definition as Adversary), ...changed };
-  const hurt = law || (form?.law ?? "");
+  const tested = law || (form?.law ?? "");
   const change = (more: Partial<AdversaryForm>) => setChanged({ ...changed, ...more });
   const choose = (name: string) => {
     if (name === OWN && own === "") setOwn((from ?? first).text);
@@ -104,7 +104,7 @@ export function Start() {
       class="surface card stack form"
       onSubmit={(event) => {
         event.preventDefault();
-        const definition = form ? { definition: writeForm({ ...form, law: hurt }) } : { text: own };
+        const definition = form ? { definition: writeForm({ ...form, law: tested }) } : { text: own };
         void startNewSearch({ ...definition, ...(law !== "" && { law }), runs, seed });
       }}
     >
@@ -119,7 +119,7 @@ export function Start() {
       {from && <p class="hint">{from.title}</p>}
       <SelectField
         label={words.law}
-        value={hurt}
+        value={tested}
         options={[...(form ? [] : [""]), ...usableLaws.value.map(({ name }) => name)]}
         name={(name) => (name === "" ? text.studies.asInStudy : titleOf(name))}
         onChoose={setLaw}
