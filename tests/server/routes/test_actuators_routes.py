@@ -123,7 +123,7 @@ def test_branch_of_a_record_keeps_its_actuator(lab: Lab) -> None:
     recorded = lab.client.post(f"{path}/recording", json={}).json()["recording"]["run_id"]
     lab.client.post(f"{path}/step", json={"ticks": 100})
     lab.client.delete(f"{path}/recording").raise_for_status()
-    follow_recording(lab.client, f"/api/v1/runs/{recorded}")
-    branch = lab.client.post(SESSIONS, json={"from": "run", "id": recorded, "tick": 50})
+    tick = follow_recording(lab.client, f"/api/v1/runs/{recorded}")["first_tick"] + 50
+    branch = lab.client.post(SESSIONS, json={"from": "run", "id": recorded, "tick": tick})
     assert branch.status_code == 201, branch.text
     assert branch.json()["actuator"]["name"] == "awas2"

@@ -19,10 +19,11 @@ TIP_MASS = {"kind": "tip_mass", "mass_kg": 0.1}
 
 @pytest.fixture
 def path(lab: Lab) -> str:
-    """The address of a paused session of an arm with the SVSA in both joints."""
+    """The address of a paused session of an arm with the SVSA in both joints, at tick 0."""
     state = open_arm(lab)
     address = f"{SESSIONS}/{state['session']}"
     lab.client.post(f"{address}/pause")
+    lab.client.post(f"{address}/reset")
     return address
 
 

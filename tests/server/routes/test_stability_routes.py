@@ -145,8 +145,8 @@ def test_unstable_design_faults_in_a_private_simulation_only(lab: Lab) -> None:
     assert max(root["re"] for root in roots) == pytest.approx(5.0)
     path = f"/api/v1/sessions/{private['session']}"
     lab.client.post(f"{path}/pause").raise_for_status()
-    lab.client.post(f"{path}/step", json={"ticks": 5000}).raise_for_status()
-    failed = lab.client.get(path).json()
+    lab.client.post(f"{path}/reset").raise_for_status()
+    failed = lab.client.post(f"{path}/step", json={"ticks": 5000}).raise_for_status().json()
     assert failed["status"] == "fault"
     assert failed["fault"]["message"]
     lab.client.post(f"{path}/reset").raise_for_status()
