@@ -56,7 +56,7 @@ class ArmResult:
         first, second = (
             Result(
                 configuration, rows, self.fault, law=law, commands=self._list_commands(number),
-                name=f"Joint {number}", steps=self.steps,
+                name=f"Joint {number}", steps=self.steps, joint=number,
             )
             for number, (configuration, rows, law) in enumerate(each, start=1)
         )  # fmt: skip

@@ -53,7 +53,7 @@ def find_record(run: str | Path | Result | ArmResult) -> Record:
     Raises:
         UnknownRunError: If the id does not exist.
         RecordError: If the record cannot be read.
-        StateError: If a result is one lane of a run, or has no samples.
+        StateError: If a result is one lane of a run or one joint of an arm, or has no samples.
     """
     if isinstance(run, Result):
         return build_result_record(run)

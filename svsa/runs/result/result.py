@@ -48,6 +48,7 @@ class Result(Channels):
         name: Name of a recorded run.
         plant: Plant of the first lane.
         steps: Runge–Kutta steps per control period.
+        joint: Joint of an arm, 1 or 2; None for a single joint.
     """
 
     configuration: Configuration
@@ -59,6 +60,7 @@ class Result(Channels):
     name: str = ""
     plant: PlantKind = "simulated"
     steps: int = 1
+    joint: int | None = None
 
     @property
     def units(self) -> dict[str, str]:

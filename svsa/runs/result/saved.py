@@ -32,8 +32,11 @@ def build_result_record(result: Result, **known: Any) -> Record:
 
     Raises:
         ParameterError: If a field of the header is out of range.
-        StateError: If the result is one of several lanes of a run, or has no samples.
+        StateError: If the result is one of several lanes of a run or one joint of an arm, or has no
+            samples.
     """
+    if result.joint is not None:
+        raise StateError("This result is one joint of an arm: use the result of the arm.")
     configuration = result.configuration
     if len(result.comparisons) != len(configuration.comparisons):
         raise StateError("This result is one lane of a run: save the run that it belongs to.")
@@ -98,7 +101,8 @@ def save_run(
     Raises:
         ParameterError: If name, tags or notes are too long.
         RecordError: If the folder exists or cannot be written.
-        StateError: If the result is one of several lanes of a run, or has no samples.
+        StateError: If the result is one of several lanes of a run or one joint of an arm, or has no
+            samples.
     """
     called = name or ("" if isinstance(result, ArmResult) else result.name)
     known: dict[str, Any] = {"name": called, "tags": tuple(tags), "notes": notes}

@@ -128,6 +128,14 @@ def test_run_with_finer_integration_is_not_resimulated(tmp_path: Path) -> None:
         svsa.resimulate(result)
 
 
+def test_joint_of_an_arm_is_not_saved_alone(tmp_path: Path) -> None:
+    """Without the other joint it would not be reproduced."""
+    arm = svsa.simulate_arm(duration_s=0.05)
+    with pytest.raises(svsa.StateError, match="one joint of an arm"):
+        svsa.save_run(arm.joints[0], tmp_path / "mine")
+    svsa.save_run(arm, tmp_path / "mine")
+
+
 def test_incomplete_run_is_not_saved(result: svsa.Result, tmp_path: Path) -> None:
     with pytest.raises(svsa.StateError, match="one lane of a run"):
         svsa.save_run(result.comparisons[0], tmp_path / "mine")
