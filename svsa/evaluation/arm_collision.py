@@ -14,8 +14,7 @@ from rich.table import Table
 from svsa.control.installed import get_title
 from svsa.control.law_names import AnyLaw
 from svsa.errors import SvsaError
-from svsa.inputs.extras import require_extra
-from svsa.inputs.output_file import check_writable
+from svsa.inputs.output_file import check_picture
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -176,13 +175,13 @@ def arm_collision(
     damping: Annotated[
         float, typer.Option(help="Contact damping of the wall, N·s/m.", min=0.0, max=200.0)
     ] = DAMPING_NS_PER_M,
-    plot: Annotated[Path | None, typer.Option(help="Draw into this file (.png, .pdf).")] = None,
+    plot: Annotated[
+        Path | None, typer.Option(help="Draw into this file (.png, .pdf, .svg).")
+    ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
 ) -> None:
     """Let the tip of an arm collide with a wall at several stiffnesses, in both directions."""
-    if plot is not None:
-        require_extra("plot")
-        check_writable("--plot", plot)
+    check_picture("--plot", plot)
     try:
         found = [
             measure_collision(law, stiffness, direction, wall, damping)

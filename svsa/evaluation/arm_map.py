@@ -15,8 +15,7 @@ from svsa.control.gains import Gains
 from svsa.control.installed import get_title
 from svsa.control.law_names import AnyLaw
 from svsa.errors import SvsaError
-from svsa.inputs.extras import require_extra
-from svsa.inputs.output_file import check_writable
+from svsa.inputs.output_file import check_picture
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -114,13 +113,13 @@ def arm_map(
     observer: Annotated[
         float, typer.Option(help="Bandwidth of the observer, rad/s.", min=0.1, max=1000.0)
     ] = 60.0,
-    plot: Annotated[Path | None, typer.Option(help="Draw into this file (.png, .pdf).")] = None,
+    plot: Annotated[
+        Path | None, typer.Option(help="Draw into this file (.png, .pdf, .svg).")
+    ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
 ) -> None:
     """Map the error of an arm's controllers over tip mass and stiffness."""
-    if plot is not None:
-        require_extra("plot")
-        check_writable("--plot", plot)
+    check_picture("--plot", plot)
     gains = Gains.from_poles([-pole] * 4, [-_STIFFNESS_POLE] * 2)
     common = {"gains": gains, "observer": observer}
     adapted = {**common, "feedforward": True, "adaptation": True}

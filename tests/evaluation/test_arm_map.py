@@ -65,6 +65,16 @@ def test_file_that_cannot_be_written_is_rejected_at_once(arguments, tmp_path):
     assert "in an existing folder" in str(answer.exception)
 
 
+COMMANDS = [["arm-map", "fl"], ["arm-collision"], ["datasheet", "sea"], ["stability"]]
+
+
+@pytest.mark.parametrize("command", COMMANDS, ids=lambda command: command[0])
+def test_picture_of_unknown_kind_is_rejected_at_once(command, tmp_path):
+    answer = CliRunner().invoke(app, [*command, "--plot", str(tmp_path / "map.txt")])
+    assert isinstance(answer.exception, svsa.ParameterError)
+    assert ".png, .pdf, .svg" in str(answer.exception)
+
+
 def test_unknown_law_is_named_in_the_error():
     answer = CliRunner().invoke(app, ["arm-map", "flx"])
     assert answer.exit_code == 2

@@ -8,7 +8,7 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
-from svsa.inputs.extras import require_extra
+from svsa.inputs.output_file import check_picture
 
 if TYPE_CHECKING:
     from svsa.analysis.datasheet.measure import Datasheet
@@ -17,15 +17,14 @@ if TYPE_CHECKING:
 def datasheet(
     name: Annotated[str, typer.Argument(help="Actuator that is installed, such as qbmove.")],
     plot: Annotated[
-        Path | None, typer.Option(help="Draw the page into this file (.pdf, .png).")
+        Path | None, typer.Option(help="Draw the page into this file (.png, .pdf, .svg).")
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print the numbers as JSON.")] = False,
 ) -> None:
     """Measure the datasheet of an actuator on its simulation (Grioli et al., IJRR 2015)."""
     from svsa.analysis.datasheet.measure import measure_datasheet
 
-    if plot is not None:
-        require_extra("plot")
+    check_picture("--plot", plot)
     found = measure_datasheet(name)
     if plot is not None:
         from svsa.analysis.datasheet.page import draw_page

@@ -10,7 +10,7 @@ from rich.console import Console
 from rich.progress import Progress
 from rich.table import Table
 
-from svsa.inputs.extras import require_extra
+from svsa.inputs.output_file import check_picture
 
 if TYPE_CHECKING:
     from svsa.analysis.design.attraction import Cell, StartOutcome
@@ -33,14 +33,13 @@ def stability(
     starts: Annotated[
         int, typer.Option(min=0, max=101, help="Starts along each side of the map; 0: no map.")
     ] = 41,
-    plot: Annotated[Path | None, typer.Option(help="Draw everything into this file.")] = None,
+    plot: Annotated[Path | None, typer.Option(help="Picture file (.png, .pdf, .svg).")] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print the numbers as JSON.")] = False,
 ) -> None:
     """Show Theorem 1: poles under model error, gain from ẇ to e, fastest observer, attraction."""
     from svsa.analysis.design.report import build_configuration, build_report
 
-    if plot is not None:
-        require_extra("plot")
+    check_picture("--plot", plot)
     configuration = build_configuration(law, pole, observer, parameters)
     with Progress(console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task("Compiling, then simulating the initial states", total=1.0)

@@ -11,8 +11,7 @@ from rich.table import Table
 
 from svsa.control.installed import PAPERS_LAW, get_title, list_law_names
 from svsa.evaluation.progress_bar import Report, show_progress
-from svsa.inputs.extras import require_extra
-from svsa.inputs.output_file import check_writable
+from svsa.inputs.output_file import check_picture, check_writable
 
 if TYPE_CHECKING:
     from svsa.evaluation.falsifier.adversary import Adversary
@@ -58,9 +57,7 @@ def search_command(
     )
     from svsa.evaluation.falsifier.measure import list_baselines
 
-    if picture is not None:
-        require_extra("plot")
-        check_writable("--picture", picture)
+    check_picture("--picture", picture)
     adversary = read_adversary(source, **({} if law is None else {"law": law}))
     path = output or Path(f"{Path(source).stem}-{adversary.law}.toml")
     check_writable("--output", path)
@@ -103,8 +100,7 @@ def run_command(
     from svsa.evaluation.falsifier.file import open_scenario
     from svsa.evaluation.falsifier.measure import list_baselines
 
-    if picture is not None:
-        require_extra("plot")
+    check_picture("--picture", picture)
     scenario = open_scenario(source)
     if laws is None:
         names = list_baselines(scenario.found.law if scenario.found else PAPERS_LAW)
