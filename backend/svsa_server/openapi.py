@@ -1,11 +1,14 @@
 """The OpenAPI schema: the routes, and additions that apply to all of them."""
 
+import asyncio
 from collections.abc import Callable
 from functools import cache
 from typing import Any
 
 from fastapi import FastAPI
 from fastapi.openapi.utils import get_openapi
+from starlette.requests import Request
+from starlette.responses import Response
 from starlette.routing import BaseRoute, Route
 
 from svsa_server.access.guard import LONGEST_BODY_BYTES
@@ -63,9 +66,23 @@ def install_openapi(app: FastAPI, build_routes: BuildRoutes, needs_secret: bool)
         return app.openapi_schema
 
     app.openapi = build
-    for route in app.router.routes:
+    for number, route in enumerate(app.router.routes):
         if isinstance(route, Route) and route.path == app.openapi_url:
-            allow(OBSERVER)(route.endpoint)  # a function of FastAPI
+            app.router.routes[number] = _build_route(app, route)
+
+
+def _build_route(app: FastAPI, route: Route) -> Route:
+    """Build FastAPI's route of the schema with a thread for the schema.
+
+    The first schema takes 1 s; in the event loop it would stop all sessions.
+    """
+
+    @allow(OBSERVER)
+    async def read_schema(request: Request) -> Response:
+        await asyncio.to_thread(app.openapi)
+        return await route.endpoint(request)
+
+    return Route(route.path, read_schema, include_in_schema=False)
 
 
 @cache

@@ -2,15 +2,19 @@
 
 import json
 import re
+import threading
+from concurrent.futures import ThreadPoolExecutor
 from html.parser import HTMLParser
 
 import pytest
 from websockets.sync.client import connect
 
 from svsa.runs.session.frame import HEADER, HEADER_FIELDS
+from svsa_server import openapi
 from svsa_server.app import build_app
 from svsa_server.config import Settings
 from tests.lab import PATIENCE_S, Lab
+from tests.lab_in_process import run_lab_in_process
 from tests.server.schema import SCHEMA
 
 STREAM = "/api/v1/sessions/{session}/stream"
@@ -28,6 +32,24 @@ class Loaded(HTMLParser):
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
         self.addresses += [value for name, value in attrs if name in ("src", "href") and value]
         self.inline = self.inline or (tag == "script" and "src" not in dict(attrs))
+
+
+def test_lab_answers_while_its_schema_is_built(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The schema takes 1 s; the control loops of the sessions use the same event loop."""
+    build, begun, answered = openapi._build_schema, threading.Event(), threading.Event()
+
+    def build_slowly(*arguments):
+        begun.set()
+        assert answered.wait(PATIENCE_S), "the event loop waits for the schema"
+        return build(*arguments)
+
+    monkeypatch.setattr(openapi, "_build_schema", build_slowly)
+    with run_lab_in_process() as lab, ThreadPoolExecutor(1) as pool:
+        asked = pool.submit(lab.client.get, "/openapi.json")
+        assert begun.wait(PATIENCE_S)
+        assert lab.read()["status"] == "running"
+        answered.set()
+        assert asked.result().raise_for_status().json()["openapi"].startswith("3.")
 
 
 @pytest.mark.parametrize("address", ["/docs", "/"])
