@@ -104,7 +104,9 @@ export function Start() {
       class="surface card stack form"
       onSubmit={(event) => {
         event.preventDefault();
-        const definition = form ? { definition: writeForm({ ...form, law: tested }) } : { text: own };
+        const definition = form
+          ? { definition: writeForm({ ...form, law: tested }) }
+          : { text: own };
         void startNewSearch({ ...definition, ...(law !== "" && { law }), runs, seed });
       }}
     >
