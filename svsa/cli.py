@@ -76,14 +76,14 @@ def describe(
 def reproduce(
     figure: Annotated[
         list[str] | None,
-        typer.Option(help="4a, 4b, 5, or on the emulator 6a, 6b, 7; 4a, 4b and 5 if left out."),
+        typer.Option(help="4a, 4b, 5 (default: all three), or 6a, 6b, 7 on the emulator."),
     ] = None,
     output: Annotated[Path, typer.Option(help="Folder for the pictures.")] = Path("figures"),
     as_json: Annotated[
         bool, typer.Option("--json", help="Print the numbers without pictures.")
     ] = False,
 ) -> None:
-    """Run the paper's figures with FL and NDOBC: 4A, 4B, 5 simulated, 6A, 6B, 7 through CAN."""
+    """Reproduce the paper's figures 4A, 4B, 5 (simulated) or 6A, 6B, 7 (emulated bench)."""
     from svsa.evaluation.reproduction import reproduce as run_figures
     from svsa.runs.paper import FIGURES
 
@@ -136,10 +136,10 @@ def measure_costs(
         bool, typer.Option("--laws", help="Measure only a tick under each law.")
     ] = False,
     start: Annotated[
-        bool, typer.Option(help="Also compile everything again, to measure it (a minute).")
+        bool, typer.Option(help="Also measure the compilation (about a minute).")
     ] = True,
 ) -> None:
-    """Measure the cost of the loop next to a C loop of the same work (CPU time)."""
+    """Measure the CPU time of the loop, and of a C loop that does the same work."""
     from svsa.evaluation.timing.bench_tick import TickCost, measure_laws
     from svsa.evaluation.timing.benchmark import measure, measure_start
 
@@ -187,7 +187,7 @@ def print_dbc(file: Annotated[Path, typer.Argument(help="Bench file (TOML).")]) 
 def write_backup(
     archive: Annotated[Path, typer.Argument(help="File to write, such as lab.tar.gz.")],
 ) -> None:
-    """Write the data folder (runs, studies, class, grades) to an archive; the lab may run."""
+    """Write the data folder (runs, studies, class, grades) to an archive; the lab can run."""
     from svsa.runs.records.backup import back_up
 
     folder = find_data_folder()
@@ -212,13 +212,17 @@ def restore_backup(
 @app.command("compile")
 def compile_loop(
     laws: Annotated[
-        list[str] | None, typer.Argument(help="Laws; all installed ones if left out.")
+        list[str] | None, typer.Argument(help="Names of laws; default: all installed laws.")
     ] = None,
     actuator: Annotated[
-        str, typer.Option(help="Installed actuator; all but the SVSA share one compiled loop.")
+        str,
+        typer.Option(
+            help="Installed actuator. All actuators except the SVSA share one compiled loop."
+        ),
     ] = SVSA,
     arm: Annotated[
-        tuple[str, str] | None, typer.Option(help="Actuators of the joints of an arm.")
+        tuple[str, str] | None,
+        typer.Option(help="Also compile an arm: the actuators of its two joints."),
     ] = None,
 ) -> None:
     """Compile the control loop into the cache, so that later starts are quick."""

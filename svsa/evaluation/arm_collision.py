@@ -175,9 +175,7 @@ def arm_collision(
     damping: Annotated[
         float, typer.Option(help="Contact damping of the wall, N·s/m.", min=0.0, max=200.0)
     ] = DAMPING_NS_PER_M,
-    plot: Annotated[
-        Path | None, typer.Option(help="Draw into this file (.png, .pdf, .svg).")
-    ] = None,
+    plot: Annotated[Path | None, typer.Option(help="Picture file (.png, .pdf, .svg).")] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
 ) -> None:
     """Let the tip of an arm collide with a wall at several stiffnesses, in both directions."""

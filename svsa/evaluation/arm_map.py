@@ -102,20 +102,23 @@ def draw_arm_maps(maps: Sequence[ArmMap]) -> "Figure":
 
 
 def arm_map(
-    laws: Annotated[list[str], typer.Argument(help="Installed laws, such as fl and ndobc.")],
+    laws: Annotated[
+        list[str], typer.Argument(help="Names of installed laws, such as fl and ndobc.")
+    ],
     adaptive: Annotated[
         list[str] | None,
-        typer.Option(help="Law with feedforward and adaptive payload; may be given again."),
+        typer.Option(help="Law with feedforward and adaptive payload; repeatable."),
     ] = None,
     pole: Annotated[
-        float, typer.Option(help="Position poles of laws with gains, rad/s.", min=1.0, max=200.0)
+        float,
+        typer.Option(
+            help="All position poles at −POLE, of laws with gains, rad/s.", min=1.0, max=200.0
+        ),
     ] = 60.0,
     observer: Annotated[
         float, typer.Option(help="Bandwidth of the observer, rad/s.", min=0.1, max=1000.0)
     ] = 60.0,
-    plot: Annotated[
-        Path | None, typer.Option(help="Draw into this file (.png, .pdf, .svg).")
-    ] = None,
+    plot: Annotated[Path | None, typer.Option(help="Picture file (.png, .pdf, .svg).")] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
 ) -> None:
     """Map the error of an arm's controllers over tip mass and stiffness."""

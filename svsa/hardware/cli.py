@@ -29,13 +29,14 @@ BenchPath = Annotated[Path, typer.Argument(help="Bench file (TOML).")]
 def bench_check(
     file: BenchPath,
     move: Annotated[
-        bool, typer.Option("--move", help="Also turn both motors a little: signs, scales, latency.")
+        bool,
+        typer.Option(
+            "--move", help="Also move both motors slightly, to check signs, scales and latency."
+        ),
     ] = False,
     yes: Annotated[
         bool,
-        typer.Option(
-            "--yes", help="Move without confirmation; no user is asked for the directions."
-        ),
+        typer.Option("--yes", help="Move without confirmation, and do not ask for the directions."),
     ] = False,
 ) -> None:
     """Test a bench step by step: file, bus, drives, encoders; with --move signs and scales."""
@@ -74,11 +75,11 @@ def bench_home(
     by: Annotated[
         str | None,
         typer.Option(
-            help="Name of the user who checks the marks; by default a question asks for it."
+            help="Name of the user who checks the marks; default: the command asks for it."
         ),
     ] = None,
 ) -> None:
-    """Write the calibration record of a bench: observer of the zero marks, and zero counts."""
+    """Write the calibration record of a bench: zero counts, and who checked the zero marks."""
     require_extra("bench")
     from svsa.hardware.calibration import list_problems
     from svsa.hardware.file import read_bench

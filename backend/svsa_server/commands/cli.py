@@ -14,28 +14,29 @@ def serve(
     host: Annotated[
         str,
         typer.Option(
-            help="Address; 'auto' is every address with SVSA_SECRET or --class, else 127.0.0.1."
+            help="Address to listen on. 'auto': all addresses if SVSA_SECRET or --class is set,"
+            " otherwise 127.0.0.1."
         ),
     ] = "127.0.0.1",
     port: Annotated[int, typer.Option(min=0, max=65535, help="Port; 0 selects a free one.")] = 8000,
     bench: Annotated[
-        Path | None, typer.Option(help="Bench file: drive this bench; simulate if left out.")
+        Path | None, typer.Option(help="Bench file of the bench to drive; default: a simulation.")
     ] = None,
     parameters: Annotated[
         Path | None,
-        typer.Option(help="Parameter file, as identify writes it; the paper's if left out."),
+        typer.Option(help="Parameter file, such as from `svsa identify`; default: the paper's."),
     ] = None,
     classroom: Annotated[
         bool,
         typer.Option(
             "--class",
-            help="Class: students join with a name and a class code; one operator at a time.",
+            help="Open a class: students join with a name and a class code.",
         ),
     ] = False,
     root_path: Annotated[
         str,
         typer.Option(
-            help="Path under which a proxy serves the lab, such as /svsa; the proxy removes it."
+            help="Path under which a proxy serves the lab, such as /svsa. The proxy removes it."
         ),
     ] = "",
     course: Annotated[
@@ -45,7 +46,7 @@ def serve(
 ) -> None:
     """Start the lab: the page, the REST interface, the streams and the 3D view.
 
-    Listening beyond this machine needs --class, or a shared secret in SVSA_SECRET.
+    A lab that other machines can reach needs --class, or a shared secret in SVSA_SECRET.
     """
     require_extra("server")
     gc.disable()  # until the server listens: the objects of the imports stay
@@ -58,13 +59,13 @@ def serve(
 
 
 def excite(
-    url: Annotated[str, typer.Option(help="Where the lab is.")] = "http://127.0.0.1:8000",
+    url: Annotated[str, typer.Option(help="Address of the lab.")] = "http://127.0.0.1:8000",
     session: Annotated[str, typer.Option(help="Session to excite.")] = "lab",
     name: Annotated[str, typer.Option(help="Name of the run.")] = "Identification",
 ) -> None:
     """Play the excitation for `svsa identify` on a running lab, 32 s, and record it.
 
-    A lab with a secret gets it from SVSA_SECRET; a bench is to be armed before.
+    If the lab has a secret, set SVSA_SECRET. A bench must be armed first.
     """
     require_extra("server")
     from svsa_server.commands.excite import play_excitation
@@ -75,11 +76,15 @@ def excite(
 def openapi(
     permissions: Annotated[
         bool,
-        typer.Option("--permissions", help="Print the table of permissions instead, as text."),
+        typer.Option(
+            "--permissions", help="Print the table of permissions as text instead of the schema."
+        ),
     ] = False,
     settings: Annotated[
         bool,
-        typer.Option("--settings", help="Print a commented example of the settings instead."),
+        typer.Option(
+            "--settings", help="Print a commented example of the settings instead of the schema."
+        ),
     ] = False,
 ) -> None:
     """Print the OpenAPI schema of the server."""

@@ -15,10 +15,8 @@ if TYPE_CHECKING:
 
 
 def datasheet(
-    name: Annotated[str, typer.Argument(help="Actuator that is installed, such as qbmove.")],
-    plot: Annotated[
-        Path | None, typer.Option(help="Draw the page into this file (.png, .pdf, .svg).")
-    ] = None,
+    name: Annotated[str, typer.Argument(help="Installed actuator, such as qbmove.")],
+    plot: Annotated[Path | None, typer.Option(help="Picture file (.png, .pdf, .svg).")] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print the numbers as JSON.")] = False,
 ) -> None:
     """Measure the datasheet of an actuator on its simulation (Grioli et al., IJRR 2015)."""

@@ -21,22 +21,24 @@ if TYPE_CHECKING:
 def stability(
     law: Annotated[str, typer.Option(help="Name of an installed law.")] = "ndobc",
     stiffness: Annotated[
-        list[float] | None, typer.Option(help="σ_d, N·m/rad; 15 and 60 if left out.")
+        list[float] | None, typer.Option(help="σ_d, N·m/rad; repeatable; default: 15 and 60.")
     ] = None,
     pole: Annotated[
-        float | None, typer.Option(help="Four position poles at −POLE, rad/s, of FL and NDOBC.")
+        float | None,
+        typer.Option(help="FL and NDOBC: place all four position poles at −POLE, rad/s."),
     ] = None,
     observer: Annotated[
         float | None, typer.Option(help="Observer bandwidth β on all channels, rad/s.")
     ] = None,
     parameters: Annotated[Path | None, typer.Option(help="Parameter file (TOML).")] = None,
     starts: Annotated[
-        int, typer.Option(min=0, max=101, help="Starts along each side of the map; 0: no map.")
+        int,
+        typer.Option(min=0, max=101, help="Initial states along each axis of the map; 0: no map."),
     ] = 41,
     plot: Annotated[Path | None, typer.Option(help="Picture file (.png, .pdf, .svg).")] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print the numbers as JSON.")] = False,
 ) -> None:
-    """Show Theorem 1: poles under model error, gain from ẇ to e, fastest observer, attraction."""
+    """Show the stability of a law: poles, gain from ẇ to e, fastest observer, attraction."""
     from svsa.analysis.design.report import build_configuration, build_report
 
     check_picture("--plot", plot)
@@ -61,14 +63,14 @@ def stability(
 
 def margins(
     laws: Annotated[
-        list[str] | None, typer.Argument(help="Names of laws; all that are installed if left out.")
+        list[str] | None, typer.Argument(help="Names of laws; default: all installed laws.")
     ] = None,
     stiffness: Annotated[
-        list[float] | None, typer.Option(help="σ_d, N·m/rad; 15 and 60 if left out.")
+        list[float] | None, typer.Option(help="σ_d, N·m/rad; repeatable; default: 15 and 60.")
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print the numbers as JSON.")] = False,
 ) -> None:
-    """Show the margins of laws about rest on the rig: modulus, delay, gains, model error."""
+    """Show the stability margins of laws on the rig: modulus, delay, gain, joint model error."""
     from svsa.analysis.design.margin_table import (
         HEADS,
         STIFFNESSES,

@@ -18,22 +18,24 @@ def identify(
         str,
         typer.Argument(
             metavar="RUN",
-            help="Id of a run in the catalogue, a record's folder, or a CSV file of one's own.",
+            help="Id of a recorded run, folder of a record, or a CSV file.",
         ),
     ],
     output: Annotated[Path, typer.Option(help="Parameter file to write.")] = Path(
         "identified.toml"
     ),
     as_json: Annotated[
-        bool, typer.Option("--json", help="Print the numbers as JSON, write no file.")
+        bool, typer.Option("--json", help="Print the numbers as JSON, and write no file.")
     ] = False,
     stiffness: Annotated[
         float | None,
-        typer.Option(help="Of a CSV file: stiffness without deflection in its first row, N·m/rad."),
+        typer.Option(
+            help="For a CSV file: stiffness in its first row, without deflection, N·m/rad."
+        ),
     ] = None,
     parameters: Annotated[
         Path | None,
-        typer.Option(help="Of a CSV file: parameter file with the known radius and γ."),
+        typer.Option(help="For a CSV file: parameter file with the known radius R and γ."),
     ] = None,
 ) -> None:
     """Estimate inertias, dampings, spring and friction from a recorded run or a CSV file.

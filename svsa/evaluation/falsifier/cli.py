@@ -21,15 +21,17 @@ if TYPE_CHECKING:
 
 falsify = typer.Typer(
     no_args_is_help=True,
-    help="The load that degrades a law most, and the simplest load with the same effect.",
+    help="Search for the worst load of a law, and simplify it.",
 )
 _messages = Console(stderr=True)
 INTERRUPTED = 130
 _Adversary = Annotated[
     str, typer.Argument(metavar="ADVERSARY", help="A file (.toml), or a built-in adversary.")
 ]
-_Runs = Annotated[int, typer.Option(min=1, max=1_000_000, help="Runs at most.")]
-_Law = Annotated[str | None, typer.Option(help="Law under test, in place of the file's.")]
+_Runs = Annotated[int, typer.Option(min=1, max=1_000_000, help="Maximum number of runs.")]
+_Law = Annotated[
+    str | None, typer.Option(help="Law under test; default: the law of the adversary.")
+]
 _Picture = Annotated[Path | None, typer.Option(help="Draw the picture into this file.")]
 _Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
 
@@ -41,7 +43,7 @@ def search_command(
     runs: _Runs = 20_000,
     seed: Annotated[int, typer.Option(min=0, help="Seed of the search.")] = 0,
     output: Annotated[
-        Path | None, typer.Option(help="Scenario file to write; ADVERSARY-LAW.toml if left out.")
+        Path | None, typer.Option(help="Scenario file to write; default: ADVERSARY-LAW.toml.")
     ] = None,
     picture: _Picture = None,
     as_json: _Json = False,
@@ -90,7 +92,7 @@ def run_command(
     ],
     laws: Annotated[
         str | None,
-        typer.Option(help="Names separated by commas, or all; by default the searched law."),
+        typer.Option(help="Names separated by commas, or all; default: the law of the search."),
     ] = None,
     picture: _Picture = None,
     as_json: _Json = False,
@@ -129,7 +131,7 @@ def compare_command(
     source: _Adversary,
     law: _Law = None,
     runs: _Runs = 20_000,
-    seeds: Annotated[int, typer.Option(min=1, max=1000, help="Seeds 0, 1, …")] = 10,
+    seeds: Annotated[int, typer.Option(min=1, max=1000, help="Number of seeds: 0, 1, …")] = 10,
     as_json: _Json = False,
 ) -> None:
     """Compare the search with random samples: the run of the first fault for each seed."""

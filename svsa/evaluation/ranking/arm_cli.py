@@ -24,24 +24,26 @@ MIN_WIDTH = 150
 def rank_arm(
     rows: Annotated[
         list[str] | None,
-        typer.Argument(help="Controllers, such as fl, fl+ff, pd+adaptive; all if left out."),
+        typer.Argument(help="Controllers, such as fl, fl+ff, pd+adaptive; default: all."),
     ] = None,
-    budget: Annotated[int, typer.Option(min=1, help="Candidates of each search.")] = 128,
-    training: Annotated[int, typer.Option(min=1, help="Training trials of a candidate.")] = 24,
-    validation: Annotated[int, typer.Option(min=1, help="Trials of the best ten.")] = 48,
+    budget: Annotated[int, typer.Option(min=1, help="Number of candidates of each search.")] = 128,
+    training: Annotated[int, typer.Option(min=1, help="Training trials of each candidate.")] = 24,
+    validation: Annotated[
+        int, typer.Option(min=1, help="Validation trials of the best ten candidates.")
+    ] = 48,
     trials: Annotated[int, typer.Option(min=1, help="Test trials.")] = 96,
     seed: Annotated[int, typer.Option(min=0, help="Seed of searches and trials.")] = 0,
     save: Annotated[
         Path | None,
-        typer.Option(help="Write results to this file after each row; its other rows stay."),
+        typer.Option(help="Write results to this file after each row; other rows are unchanged."),
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
     markdown: Annotated[bool, typer.Option("--markdown", help="Print Markdown.")] = False,
 ) -> None:
     """Tune the controllers of an arm, and compare them on test trials.
 
-    Without names, rows of the file with the same protocol are kept: an interrupted command
-    continues.
+    Without names, the command skips rows that the file already has with the same protocol, so that
+    an interrupted command continues.
     """
     from svsa.evaluation.ranking.arm import (
         ArmProtocol,

@@ -21,22 +21,22 @@ MIN_WIDTH = 132
 
 def bench(
     laws: Annotated[
-        list[str] | None, typer.Argument(help="Names of laws; all that are installed if left out.")
+        list[str] | None, typer.Argument(help="Names of laws; default: all installed laws.")
     ] = None,
     comparison: Annotated[str, typer.Option(help="Name of the law to compare with.")] = PAPERS_LAW,
     figure: Annotated[
-        list[str] | None, typer.Option(help="6a, 6b or 7; all three if left out.")
+        list[str] | None, typer.Option(help="6a, 6b or 7; repeatable; default: all three.")
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
     markdown: Annotated[bool, typer.Option("--markdown", help="Print Markdown.")] = False,
     save: Annotated[
-        Path | None, typer.Option(help="Save the runs in this file; other laws there are kept.")
+        Path | None, typer.Option(help="Save the runs in this file; the file keeps its other laws.")
     ] = None,
     results: Annotated[
-        Path | None, typer.Option(help="Show the results saved there, and measure nothing.")
+        Path | None, typer.Option(help="Show the results of this file, without a measurement.")
     ] = None,
 ) -> None:
-    """Run laws through Figures 6A, 6B and 7 on the emulator: 12 numbers next to a baseline's."""
+    """Run laws in Figures 6A, 6B and 7 on the emulator, and compare 12 numbers with a baseline."""
     kept = read_bench_runs(save) if save is not None and save.exists() else None
     figures = tuple(dict.fromkeys(_check_figure(key) for key in figure or BENCH_FIGURES))
     if results is None:

@@ -30,7 +30,9 @@ from svsa.evaluation.ranking.table import HEADINGS, build_cells, format_markdown
 from svsa.evaluation.trials import PROTOCOL
 from svsa.inputs.extras import require_extra
 
-ranking = typer.Typer(no_args_is_help=True, help="Every law on the same plant, limits and loads.")
+ranking = typer.Typer(
+    no_args_is_help=True, help="Compare all laws with the same plant, limits and loads."
+)
 _messages = Console(stderr=True)
 MIN_WIDTH = 150
 """Width of the terminal, in characters, that the table needs."""
@@ -40,7 +42,7 @@ MIN_WIDTH = 150
 def run_ranking(
     rows: Annotated[
         list[str] | None,
-        typer.Argument(help="Laws, or ndobc_declared; all installed laws if left out."),
+        typer.Argument(help="Names of laws, or ndobc_declared; default: all installed laws."),
     ] = None,
     trials: Annotated[int, typer.Option(min=1, help="Test trials of each family.")] = TRIALS,
     seed: Annotated[int, typer.Option(min=0, help="Seed of the test set.")] = PUBLIC_SEED,
@@ -49,16 +51,16 @@ def run_ranking(
     ] = SVSA,
     save: Annotated[
         Path | None,
-        typer.Option(help="Write results to this file, after each row; its other rows stay."),
+        typer.Option(help="Write results to this file after each row; other rows are unchanged."),
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
     markdown: Annotated[bool, typer.Option("--markdown", help="Print Markdown.")] = False,
 ) -> None:
     """Measure laws on the test set and the fixed scenarios, and print the table.
 
-    Without names, rows of the file with the same protocol, seed, trials and parameters are kept: an
-    interrupted command continues. Gains and parameters are those tuned for the SVSA; for another
-    actuator poles and bandwidths are scaled by its default gains.
+    Without names, the command skips rows that the file already has with the same protocol, seed,
+    trials and parameters, so that an interrupted command continues. Gains and parameters are those
+    tuned for the SVSA. For another actuator, poles and bandwidths are scaled by its default gains.
     """
     get_mechanism(actuator)  # an unknown name is rejected before anything is measured
     known = _read_known(save, seed, trials, actuator)
@@ -84,7 +86,7 @@ def run_ranking(
 @ranking.command("table")
 def print_table(
     results: Annotated[
-        Path | None, typer.Option(help="File of results; the published ones if left out.")
+        Path | None, typer.Option(help="File of results; default: the published results.")
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
     markdown: Annotated[bool, typer.Option("--markdown", help="Print Markdown.")] = False,
@@ -97,7 +99,7 @@ def print_table(
 def publish_ranking(
     tree: Annotated[Path, typer.Argument(help="The project's source tree.")] = Path(),
 ) -> None:
-    """Write the laws' pages and their index with pictures from the results."""
+    """Write the pages of the laws, their index and pictures from the results."""
     require_extra("plot")
     from svsa.evaluation.ranking.publish import publish
 

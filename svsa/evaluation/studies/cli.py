@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from svsa.evaluation.studies.study import Study
 
 study = typer.Typer(
-    no_args_is_help=True, help="Many perturbed runs of every law, and their statistics."
+    no_args_is_help=True, help="Run many perturbed runs of each law, and show their statistics."
 )
 _messages = Console(stderr=True)
 INTERRUPTED = 130
@@ -28,27 +28,30 @@ def run_command(
     source: Annotated[
         str,
         typer.Argument(
-            metavar="STUDY", help="A file (.toml or .py), a saved study, or a built-in one."
+            metavar="STUDY", help="A file (.toml or .py), or the name of a saved or built-in study."
         ),
     ],
     runs: Annotated[
-        int | None, typer.Option(min=1, help="Number of samples, in place of the file's.")
+        int | None, typer.Option(min=1, help="Number of samples; default: the number of the study.")
     ] = None,
     name: Annotated[
-        str | None, typer.Option(help="Name to save it under; by default the file's.")
+        str | None,
+        typer.Option(help="Name to save the study under; default: the name of the file."),
     ] = None,
     workers: Annotated[
         int | None,
         typer.Option(
-            min=1, max=256, help="Processes of low priority on this machine; by default 2."
+            min=1,
+            max=256,
+            help="Number of processes on this machine, with low priority; default: 2.",
         ),
     ] = None,
     scheduler: Annotated[
         str | None,
         typer.Option(
             metavar="ADDRESS",
-            help="Scheduler of a Dask cluster, such as tcp://10.0.0.1:8786; or `local`: one of"
-            " --workers processes of this machine.",
+            help="Scheduler of a Dask cluster, such as tcp://10.0.0.1:8786; `local`: a cluster of"
+            " --workers processes on this machine.",
         ),
     ] = None,
 ) -> None:
@@ -147,13 +150,11 @@ def show_command(
         str | None,
         typer.Option(help="Outcome of the Sobol indices: succeeded (default), or a metric."),
     ] = None,
-    pictures: Annotated[
-        Path | None, typer.Option(help="Folder for pictures; none are drawn if left out.")
-    ] = None,
+    pictures: Annotated[Path | None, typer.Option(help="Draw pictures into this folder.")] = None,
 ) -> None:
-    """Results of a study: success, faults and quantiles of each law, and Sobol indices.
+    """Show the results of a study: success, faults and quantiles of each law, and Sobol indices.
 
-    If the actuator varies, of each actuator first, then of all.
+    If the actuator varies, the results of each actuator are shown first, then those of all.
     """
     from svsa.evaluation.studies.rows import read_rows
     from svsa.evaluation.studies.store import open_study
@@ -202,7 +203,7 @@ def compare_command(
         str | None,
         typer.Argument(
             metavar="OTHER",
-            help="Another study with the same samples; by default the study's own laws.",
+            help="Another study with the same samples; default: compare the laws of the study.",
         ),
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,

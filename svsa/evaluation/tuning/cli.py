@@ -27,7 +27,7 @@ def tune(
     ] = False,
     budget: Annotated[
         int | None,
-        typer.Option(min=1, help="Number of candidates: 128; with --all 2000."),
+        typer.Option(min=1, help="Number of candidates; default: 128, with --all 2000."),
     ] = None,
     trials: Annotated[int, typer.Option(min=1, help="Training trials of each candidate.")] = 128,
     validation: Annotated[
@@ -38,7 +38,7 @@ def tune(
     ] = 0,
     hold: Annotated[
         list[str] | None,
-        typer.Option(help="NAME=VALUE: a parameter that is set and not searched."),
+        typer.Option(help="NAME=VALUE: a parameter with a fixed value; repeatable."),
     ] = None,
     parameters: Annotated[
         Path | None, typer.Option(help="Parameter file with the initial parameters (TOML).")
@@ -46,18 +46,18 @@ def tune(
     output: Annotated[
         Path | None,
         typer.Option(
-            help="Parameter file to write; LAW.toml if left out. With --all the folder of the"
-            " results, the ranking's own if left out."
+            help="Parameter file to write; default: LAW.toml. With --all: folder of the results;"
+            " default: the folder of the ranking."
         ),
     ] = None,
     as_json: Annotated[
-        bool, typer.Option("--json", help="Print all candidates as JSON, write no file.")
+        bool, typer.Option("--json", help="Print all candidates as JSON, and write no file.")
     ] = False,
 ) -> None:
     """Tune a law, or all laws for the ranking. Ctrl-C ends the search and saves the best so far.
 
-    With --all, laws that have a result of the same budget are left as they are, and a search that
-    was interrupted continues from its checkpoint.
+    --all skips laws that have a result with the same budget, and continues an interrupted search
+    from its checkpoint.
     """
     if every == (law is not None):
         raise ParameterError(Violation("law", law, "", "one law, or --all"))

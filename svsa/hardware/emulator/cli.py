@@ -9,9 +9,11 @@ import typer
 
 
 def emulator(
-    port: Annotated[int, typer.Option(min=0, max=65535, help="Port of socketcand.")] = 29536,
+    port: Annotated[
+        int, typer.Option(min=0, max=65535, help="Port of the socketcand server.")
+    ] = 29536,
     control_port: Annotated[
-        int, typer.Option(min=0, max=65535, help="Port for loads and faults.")
+        int, typer.Option(min=0, max=65535, help="Port that accepts loads and faults.")
     ] = 29537,
     lockstep: Annotated[
         bool, typer.Option("--lockstep", help="Time advances only when a client requests it.")
@@ -20,7 +22,7 @@ def emulator(
         bool | None,
         typer.Option(
             "--real-time/--ordinary-time",
-            help="Ask for real-time priority; left out, not in lockstep.",
+            help="Request real-time priority; default: only without --lockstep.",
         ),
     ] = None,
     actuator: Annotated[
@@ -28,9 +30,7 @@ def emulator(
     ] = None,
     file: Annotated[
         Path | None,
-        typer.Option(
-            help="Parameters of the emulator (TOML); by default the actuator's prototype."
-        ),
+        typer.Option(help="Parameters of the emulator (TOML); default: the actuator's prototype."),
     ] = None,
     write_bench: Annotated[
         Path | None,
@@ -49,15 +49,16 @@ def emulator(
         float,
         typer.Option(
             min=0,
-            help="In lockstep: time continues automatically if no loop asks for so long, as"
-            " on a machine whose loop is gone; 0: never.",
+            help="In lockstep: time after which the emulator continues automatically if no loop"
+            " requests time, for example because the loop has ended, s; 0: never.",
         ),
     ] = 0.0,
 ) -> None:
     """Emulate the bench of an actuator on CAN: two drives, an encoder and the mechanism.
 
-    Clients connect as to a socketcand server (python-can's interface `socketcand`), or to a printed
-    terminal as to a slcan adapter, which carries CAN FD too. Reachable from this machine only.
+    Clients connect to its socketcand server (interface `socketcand` of python-can), or to the
+    terminal that it prints (interface `slcan`, also CAN FD). Only clients of this machine can
+    connect.
     """
     from svsa.actuators.parameters import SVSA
     from svsa.errors import ParameterError, Violation

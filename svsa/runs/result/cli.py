@@ -22,21 +22,27 @@ _messages = Console(stderr=True)
 
 
 def compare(
-    run: Annotated[str, typer.Argument(help="The run that is judged: its id, or its folder.")],
-    other: Annotated[str, typer.Argument(help="The run that it should be.")],
-    absolute: Annotated[float, typer.Option(help="Tolerance in each channel's unit.")] = 0.0,
-    relative: Annotated[float, typer.Option(help="As a share of the other run's value.")] = 0.0,
-    time_s: Annotated[float, typer.Option("--time", help="How much earlier or later, s.")] = 0.0,
+    run: Annotated[str, typer.Argument(help="Run under test: its id or folder.")],
+    other: Annotated[str, typer.Argument(help="Reference run: its id or folder.")],
+    absolute: Annotated[
+        float, typer.Option(help="Absolute tolerance, in the unit of the channel.")
+    ] = 0.0,
+    relative: Annotated[
+        float, typer.Option(help="Relative tolerance, as a share of the reference value.")
+    ] = 0.0,
+    time_s: Annotated[float, typer.Option("--time", help="Time tolerance, s.")] = 0.0,
     channel: Annotated[
-        list[str] | None, typer.Option(help="Only this channel; may be given again.")
+        list[str] | None, typer.Option(help="Compare only this channel; repeatable.")
     ] = None,
     tolerances: Annotated[
-        Path | None, typer.Option(help="TOML: a table a channel (absolute, relative, time_s).")
+        Path | None,
+        typer.Option(help="TOML file: a table per channel (absolute, relative, time_s)."),
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
 ) -> None:
-    """Compare a run with a reference run. Exit code 0: within tolerance; 1: not; 2: not
-    comparable.
+    """Compare a run with a reference run, channel by channel.
+
+    Exit code 0: all channels are within tolerance; 1: a channel is outside; 2: not comparable.
     """
     from svsa.runs.records.header import describe_newer
     from svsa.runs.result.recorded import compare_runs, find_record

@@ -7,10 +7,10 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
-course = typer.Typer(no_args_is_help=True, help="Exercises in the lab: predict, run, explain.")
+course = typer.Typer(no_args_is_help=True, help="List and check the exercises of the course.")
 _Folder = Annotated[
     Path | None,
-    typer.Option("--course", help="Folder with exercises of one's own; else SVSA_COURSE's."),
+    typer.Option("--course", help="Folder with additional exercises; default: SVSA_COURSE."),
 ]
 
 

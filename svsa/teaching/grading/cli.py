@@ -22,31 +22,39 @@ from svsa.teaching.grading.report import write_csv, write_page
 from svsa.teaching.isolation.refusal import PRINTED
 
 _messages = Console(stderr=True)
-_File = Annotated[Path | None, typer.Option(help="Write all grades into this file.")]
 
 
 def grade_command(
     files: Annotated[list[Path], typer.Argument(metavar="SUBMISSION…", help="Submissions (JSON).")],
     book: Annotated[
-        Path | None, typer.Option("--class", help="The class's folder: its secret, its grades.")
+        Path | None,
+        typer.Option("--class", help="Folder of the class, with its secret and its grades."),
     ] = None,
     practice: Annotated[
         bool,
-        typer.Option("--practice", help="One's own: public trials, no walls, nothing is kept."),
+        typer.Option(
+            "--practice", help="For students: public trials, without isolation; no grade is stored."
+        ),
     ] = False,
-    runs: Annotated[Path | None, typer.Option(help="Folder of the runs; else SVSA_DATA's.")] = None,
-    course: Annotated[
-        Path | None, typer.Option(help="Folder with exercises of one's own; else SVSA_COURSE's.")
+    runs: Annotated[
+        Path | None, typer.Option(help="Folder of the runs; default: in SVSA_DATA.")
     ] = None,
-    csv: _File = None,
-    page: _File = None,
+    course: Annotated[
+        Path | None, typer.Option(help="Folder with additional exercises; default: SVSA_COURSE.")
+    ] = None,
+    csv: Annotated[
+        Path | None, typer.Option(help="CSV file to write, with all grades of the class.")
+    ] = None,
+    page: Annotated[
+        Path | None, typer.Option(help="HTML report to write, with all grades of the class.")
+    ] = None,
 ) -> None:
     """Grade submissions: runs by exact replay, laws in an isolated process on secret trials.
 
-    What was graded before keeps its grade. --csv and --page tell all grades of the class.
+    A submission that already has a grade keeps it. --csv and --page write all grades of the class.
     """
     if (book is None) != practice:
-        bound = "given, or else --practice" if book is None else "left out with --practice"
+        bound = "given, or --practice instead" if book is None else "omitted with --practice"
         raise ParameterError(Violation("--class", book and str(book), "", bound))
     exercises = {one.name: one for one in read_course(course or find_course_folder())}
     kept = None if book is None else Book(book)

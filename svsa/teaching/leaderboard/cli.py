@@ -29,7 +29,7 @@ from svsa.teaching.leaderboard.standing import ReportProgress, build_season, mea
 from svsa.teaching.submission import read_law
 
 _messages = Console(stderr=True)
-_BOARD = typer.Option("--board", help="Folder of the season; by default leaderboard in SVSA_DATA.")
+_BOARD = typer.Option("--board", help="Folder of the season; default: leaderboard in SVSA_DATA.")
 _JSON = typer.Option("--json", help="Print JSON.")
 _HEADINGS = (
     "", "law", "by", "held", "95 %", "trials", "ended", "rms, median", "µs/tick", "worst",
@@ -39,19 +39,23 @@ MIN_WIDTH = 110
 
 
 def submit_command(
-    file: Annotated[Path, typer.Argument(metavar="LAW.PY", help="The law: see docs/grading.md.")],
+    file: Annotated[
+        Path, typer.Argument(metavar="LAW.PY", help="Python file of the law: see docs/grading.md.")
+    ],
     name: Annotated[
-        str | None, typer.Option(help="Name of the entry; by default the file's name.")
+        str | None, typer.Option(help="Name of the entry; default: the name of the file.")
     ] = None,
     author: Annotated[str, typer.Option(help="Author shown on the leaderboard.")] = "",
     practice: Annotated[
         bool,
-        typer.Option("--practice", help="Practice: public trials, no isolation, nothing is saved."),
+        typer.Option(
+            "--practice", help="For students: public trials, without isolation; nothing is stored."
+        ),
     ] = False,
     folder: Annotated[Path | None, _BOARD] = None,
     as_json: Annotated[bool, _JSON] = False,
 ) -> None:
-    """Measure a law on the season's hidden trials, in isolation, and show its rank.
+    """Submit a law: measure it on the season's hidden trials, in isolation, and show its rank.
 
     A file that was submitted before keeps its entry.
     """
@@ -74,7 +78,7 @@ def submit_command(
 def leaderboard_command(
     folder: Annotated[Path | None, _BOARD] = None, as_json: Annotated[bool, _JSON] = False
 ) -> None:
-    """Show the season's entries, best first; installed laws without an entry are measured first."""
+    """Show the entries of the season by rank; measure installed laws without an entry first."""
     board = Board(folder)
     with _show_progress("Laws of the lab") as report:
         measure_missing(board, report)

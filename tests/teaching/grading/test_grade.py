@@ -179,7 +179,7 @@ def test_class_is_graded_once_with_a_page_and_csv(tmp_path):
 
 def test_class_or_practice_must_be_chosen(tmp_path):
     path = submit_law(tmp_path / "ada", LAZY)
-    with pytest.raises(svsa.ParameterError, match="or else --practice"):
+    with pytest.raises(svsa.ParameterError, match="or --practice instead"):
         run(path)
     with pytest.raises(svsa.ParameterError, match="left out with --practice"):
         run(path, "--class", tmp_path, "--practice")
