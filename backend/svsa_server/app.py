@@ -150,7 +150,7 @@ def open_lti(config: Settings) -> "LtiTool | None":
     if config.lti is None:
         return None
     if not config.classroom:
-        raise ParameterError(Violation("SVSA_LTI", config.lti, "", "left out without --class"))
+        raise ParameterError(Violation("SVSA_LTI", config.lti, "", "omitted without --class"))
     require_extra("lti")
     from svsa_server.lti.tool import LtiTool
 

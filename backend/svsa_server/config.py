@@ -38,13 +38,14 @@ class Settings(BaseSettings):
         " Required beyond loopback, except for a class",
     )
     max_sessions: int = Field(
-        default=48, ge=0, le=1000, description="Private sessions of the lab at once"
+        default=48, ge=0, le=1000, description="Maximum number of private sessions of the lab"
     )
     max_sessions_each: int = Field(
         default=4,
         ge=1,
         le=1000,
-        description="Private sessions of one student at once. The instructor has no such limit",
+        description="Maximum number of private sessions of one student. The instructor has no"
+        " limit",
     )
     idle_s: float = Field(
         default=600.0, ge=1, description="Time after which an unused private session ends, s"
@@ -52,48 +53,55 @@ class Settings(BaseSettings):
     control_s: float = Field(
         default=15.0,
         ge=1,
-        description="Time for which a control lease outlives the last stream and call of its"
-        " holder, s",
+        description="Time from the last stream or call of its holder until a control lease expires,"
+        " s",
     )
     silence_s: float = Field(
         default=20.0,
         ge=1,
-        description="Longest time in which a client sends a request, reads on or answers a ping,"
-        " s. Then the connection is closed",
+        description="Time after which a silent client is disconnected, s: it does not complete its"
+        " request, read the stream or answer a ping",
     )
     max_exports: int = Field(
         default=10,
         ge=0,
         le=1000,
-        description="Exports, replays, comparisons, maps and ranked runs that run or wait",
+        description="Maximum number of exports, replays, comparisons, maps and ranked runs that run"
+        " or wait",
     )
     max_tunings: int = Field(
-        default=3, ge=0, le=100, description="Tunings that run, one at a time, or wait"
+        default=3,
+        ge=0,
+        le=100,
+        description="Maximum number of tunings that run (one at a time) or wait",
     )
     max_studies: int = Field(
-        default=3, ge=0, le=100, description="Studies that run, one at a time, or wait"
+        default=3,
+        ge=0,
+        le=100,
+        description="Maximum number of studies that run (one at a time) or wait",
     )
     max_falsifications: int = Field(
         default=3,
         ge=0,
         le=100,
-        description="Searches of the falsifier that run, one at a time, or wait",
+        description="Maximum number of falsifier searches that run (one at a time) or wait",
     )
     max_submissions: int = Field(
         default=10,
         ge=0,
         le=100,
-        description="Laws for the leaderboard that are measured, one at a time, or wait",
+        description="Maximum number of leaderboard submissions that run (one at a time) or wait",
     )
     max_jobs_each: int = Field(
         default=2,
         ge=1,
         le=100,
-        description="Jobs of one kind of one student that run or wait. The instructor has a"
-        " reserved place",
+        description="Maximum number of jobs of one kind of one student that run or wait. One place"
+        " is reserved for the instructor",
     )
     job_s: float = Field(
-        default=900.0, ge=1, description="Longest time that a job of a student runs, s"
+        default=900.0, ge=1, description="Maximum duration of a job of a student, s"
     )
     bench: Path | None = Field(
         default=None,
@@ -105,9 +113,7 @@ class Settings(BaseSettings):
         description="Parameter file (TOML) from which figures and sessions start. If not set, the"
         " paper's parameters",
     )
-    course: Path | None = Field(
-        default=None, description="Folder with exercises in addition to those of the package"
-    )
+    course: Path | None = Field(default=None, description="Folder with additional exercises")
     lti: Path | None = Field(
         default=None, description="File with the learning platforms of a class (docs/lti.md)"
     )
@@ -132,7 +138,9 @@ class Settings(BaseSettings):
         " from the requests",
     )
     quota_mb: float = Field(
-        default=500.0, ge=0, description="Disk space for the runs and studies of one student, MB"
+        default=500.0,
+        ge=0,
+        description="Maximum disk space of the runs and studies of one student, MB",
     )
     disk_low_gb: float = Field(
         default=2.0, ge=0, description="Free disk space below which the lab reports a problem, GB"
@@ -141,18 +149,27 @@ class Settings(BaseSettings):
         default="text", description="Format of the log on standard error: text, or JSON lines"
     )
     joins: Rate = Field(
-        default="300/minute", description="Joins of one address (a class behind one router has one)"
+        default="300/minute",
+        description="Maximum rate of joins from one address. A class behind one router has one"
+        " address",
     )
     codes: Rate = Field(
-        default="10/minute", description="Wrong class codes of one address and name"
+        default="10/minute", description="Maximum rate of wrong class codes of one address and name"
     )
     logins: Rate = Field(
         default="20/minute",
-        description="Wrong instructor tokens of one address. The right token is always accepted",
+        description="Maximum rate of wrong instructor tokens of one address. The right token is"
+        " always accepted",
     )
-    commands: Rate = Field(default="50/second", description="Commands of one student")
-    sessions: Rate = Field(default="20/minute", description="New sessions of one student")
-    runs: Rate = Field(default="30/minute", description="New recordings of one student")
+    commands: Rate = Field(
+        default="50/second", description="Maximum rate of commands of one student"
+    )
+    sessions: Rate = Field(
+        default="20/minute", description="Maximum rate of new sessions of one student"
+    )
+    runs: Rate = Field(
+        default="30/minute", description="Maximum rate of new recordings of one student"
+    )
 
     @property
     def secret_text(self) -> str | None:
@@ -184,8 +201,8 @@ class Settings(BaseSettings):
         if self.classroom:
             if self.secret_text is not None:
                 raise SecurityError(
-                    "A class has a code and an instructor token of its own: leave out SVSA_SECRET,"
-                    " or --class."
+                    "A class has its own code and instructor token: remove SVSA_SECRET, or start"
+                    " without --class."
                 )
         elif self.secret_text is None:
             if not is_loopback(host):

@@ -164,8 +164,8 @@ def _declare_key(operation: dict[str, Any]) -> None:
             "name": KEY_HEADER,
             "in": "header",
             "required": False,
-            "description": "Drawn at random by the client, new for every request. A repeat with the"
-            " same key, address and body receives the first answer, with the header"
+            "description": "Random key that the client generates for each request. A repeat with"
+            " the same key, address and body receives the first answer, with the header"
             " `Idempotency-Replayed: true`. The server stores the newest"
             f" {MAX_STORED} requests of the last {LONGEST_AGE_S / 3600:g} h.",
             "schema": {"type": "string", "pattern": KEY_PATTERN},

@@ -158,7 +158,7 @@ class BlockStream:
                 reported = error.response.body or b"null"
                 raise build_refusal(error.response.status_code, json.loads(reported)) from None
             if time.monotonic() - self._reported_at > self._timeout_s:
-                raise LabError(f"{self._name} broke off: {error}.") from None
+                raise LabError(f"{self._name} was interrupted: {error}.") from None
 
 
 def _let_go(socket: synchronous.ClientConnection) -> None:

@@ -146,7 +146,7 @@ def read_parameters(name: str, given: Any) -> LawParameters:
         ParameterError: If a parameter is invalid.
     """
     if not has_own_parameters(name):
-        raise ParameterError(Violation("", given, "", f"left out: {name} takes the run's gains"))
+        raise ParameterError(Violation("", given, "", f"omitted: {name} takes the run's gains"))
     model = get_law(name).parameters if is_usable(name) else UnreadParameters
     if isinstance(given, model):
         return given

@@ -197,7 +197,7 @@ def read_bench(path: Path | str) -> BenchFile:
             bound = f"at least nominal_current_a = {motor.nominal_current_a:g} A"
             raise ParameterError(Violation(f"{name}.peak_current_a", peak, "A", bound))
     if bench.timing.period_s not in PERIODS_S:
-        bound = "0.001 or 0.002 s: a drive takes a command each ms at most"
+        bound = "0.001 or 0.002 s: a drive accepts at most one command per ms"
         raise ParameterError(Violation("timing.period_s", bench.timing.period_s, "s", bound))
     one, two = bench.motor1, bench.motor2
     if (one.drive, one.place) == (two.drive, two.place):

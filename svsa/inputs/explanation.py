@@ -136,18 +136,18 @@ _COMPARISON_KINDS = {
 }
 _KINDS = {
     "float_type": "a number",
-    "int_type": "a whole number",
+    "int_type": "an integer",
     "finite_number": "a finite number",
     "missing": "given",
-    "extra_forbidden": "left out: unknown field",
+    "extra_forbidden": "omitted: unknown field",
     "tuple_type": "a list",
     "bool_type": "true or false",
     "string_type": "a text",
     "model_attributes_type": "an object with named fields",
     "model_type": "an object with named fields",
     "dict_type": "an object with named fields",
-    "int_parsing": "a whole number",
-    "int_from_float": "a whole number",
+    "int_parsing": "an integer",
+    "int_from_float": "an integer",
     "float_parsing": "a number",
     "bool_parsing": "true or false",
 }

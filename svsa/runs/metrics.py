@@ -29,9 +29,9 @@ UNMOVED_NM_PER_RAD = 0.01
 class Metrics:
     """Metrics of a segment of samples; SI units as named, over `duration_s`.
 
-    e = q_d − q and e_σ = σ_d − σ. Ticks that a bench's loop missed have a time but no values, and
-    are left out of sums and peaks. All metrics are NaN if the last 0.5 s, or the whole segment, has
-    no values: the lane ended. A metric that is not defined for the segment is None.
+    e = q_d − q and e_σ = σ_d − σ. Ticks that a bench's loop missed have a time but no values;
+    sums and peaks do not include them. All metrics are NaN if the last 0.5 s, or the complete
+    segment, has no values: the lane ended. A metric that is not defined for the segment is None.
 
     For each output (stiffness metrics contain the name of that output):
         rms_…, peak_…: rms and peak error; the peak after a load is the peak deviation.

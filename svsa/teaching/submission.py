@@ -88,7 +88,7 @@ def read_submission(path: Path | str) -> Submission:
     try:
         found = _parse(text)
         if found.law is not None:
-            bound = "left out: law_file names its file"
+            bound = "omitted: law_file names its file"
             raise ParameterError(Violation("law", None, "", bound))
         file = found.law_file
         return found.changed(law=None if file is None else _read_law_in(path.parent, file))

@@ -19,7 +19,7 @@ WRONG = [
     (
         "[motor1]",
         '[motor1]\ndrive = "moteus"',
-        "motor1.drive_number is 1: it must be left out: it belongs to drive = 'robomodule'",
+        "motor1.drive_number is 1: it must be omitted: it belongs to drive = 'robomodule'",
         "known drives: moteus, robomodule",
     ),
     ("efficiency = 0.9", "efficiency = 0,9", "line 19: 0,9 has a decimal comma", "point: 0.9"),

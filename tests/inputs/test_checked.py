@@ -21,7 +21,7 @@ def test_float_without_fraction_is_an_integer(given: float) -> None:
 
 @pytest.mark.parametrize("given", [True, "3", 2.5, 1e300, float("nan"), float("inf"), None])
 def test_other_values_are_not_integers(given: Any) -> None:
-    with pytest.raises(ParameterError, match=r"delay_samples.*a whole number"):
+    with pytest.raises(ParameterError, match=r"delay_samples.*an integer"):
         Effects(delay_samples=given)
 
 

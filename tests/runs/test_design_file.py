@@ -116,7 +116,7 @@ BROKEN_LAWS = {
     ),
     "a law that takes gains": (
         INTEGRAL.replace("fl_integral", "ndobc"),
-        "left out: ndobc takes the run's gains",
+        "omitted: ndobc takes the run's gains",
     ),
     "no table": ("[parameters]\nfl_integral = 3\n", "parameters.fl_integral is 3"),
 }

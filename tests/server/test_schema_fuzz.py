@@ -64,7 +64,7 @@ ABSENT_ELSE = {"If-Match": "*"}
 """In any state: `test_two_writers` tests the answers to concurrent writers."""
 
 HURWITZ = "gains must be Hurwitz: every root of their polynomial left of the imaginary axis"
-STUDY = "a source must be a built-in or a kept study, a text the TOML of one, one of both given"
+STUDY = "a source must be a built-in or a saved study, a text the TOML of one, one of both given"
 SCENARIO = "laws are installed, base and settings name what a configuration has, names are free"
 INSTALLED = "laws and parameters are those of GET /laws here"
 RANGE = "the whole course must stay in the stiffness range of the lab's own parameter file"

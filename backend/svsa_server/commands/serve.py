@@ -117,7 +117,7 @@ def run_server(
         }
     )
     if bench is not None and config.parameters is not None:
-        bound = "left out with a bench: its own file names it, as [design] file"
+        bound = "omitted with a bench: set [design] file in the bench file"
         raise ParameterError(Violation("--parameters", str(config.parameters), "", bound))
     if config.log == "json":
         write_json_logs()

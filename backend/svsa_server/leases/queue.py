@@ -47,7 +47,7 @@ class ControlQueue(ControlLease):
             raise HeldError(f"The instructor has locked control of session {self._session}.")
         who = self.holder.name if self.holder else "No user"
         raise HeldError(
-            f"{who} is in control of session {self._session}: ask for control, and wait for your"
+            f"{who} is in control of session {self._session}: request control, and wait for your"
             " turn."
         )
 
@@ -55,7 +55,9 @@ class ControlQueue(ControlLease):
         """Join the queue, or take the lease at once with `take_over` (instructor only)."""
         if take_over:
             if not self._is_instructor(holder.client):
-                raise HeldError("Only the instructor takes control from others: ask for it.")
+                raise HeldError(
+                    "Only the instructor may take control from another user: request it instead."
+                )
             self._leave_queue(holder.client)
             self._set_aside()
             self._give(holder, now)

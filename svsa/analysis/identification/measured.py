@@ -119,7 +119,7 @@ def _read_table(path: Path) -> dict[str, np.ndarray]:
     try:
         table = pa.csv.read_csv(path)
     except (OSError, pa.ArrowInvalid) as error:
-        bound = f"a readable CSV file with a head ({error})"
+        bound = f"a readable CSV file with a header ({error})"
         raise ParameterError(Violation("file", str(path), "", bound)) from None
     wanted = (TIME, *(f"{name}_rad" for name in ANGLES), *TORQUES)
     for name in (TIME, *TORQUES):

@@ -93,7 +93,7 @@ def _check_cluster(scheduler: str, workers: int | None) -> None:
     from svsa.evaluation.studies.cluster import LOCAL
 
     if workers is not None and scheduler != LOCAL:
-        bound = f"left out: the cluster at {scheduler} has its own"
+        bound = f"omitted: the cluster at {scheduler} has its own workers"
         raise ParameterError(Violation("--workers", workers, "", bound))
 
 

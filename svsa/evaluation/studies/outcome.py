@@ -22,7 +22,7 @@ _FIELDS: Any = {
 class Success(create_model("_Bounds", __base__=Checked, **_FIELDS)):
     """The success criterion: upper bounds of metrics, besides the absence of a fault.
 
-    Bounds that are left out are not checked. A run without the value, such as one that never
+    Omitted bounds are not checked. A run without the value, such as one that never
     recovers, fails.
     """
 

@@ -132,7 +132,7 @@ def _change_parts(configuration: Configuration, changes: Mapping[str, Any]) -> C
         for step in steps:
             part = part.setdefault(step, _Part()) if isinstance(part, _Part) else None
         if not isinstance(part, _Part) or last in part:
-            raise ParameterError(Violation("", path, "", "apart from the other paths"))
+            raise ParameterError(Violation("", path, "", "a path that no other path contains"))
         part[last] = _find_parts(_get_named(path, given))
     return _change(configuration, configuration, root)
 
@@ -195,12 +195,10 @@ def _step_into(whole: Configuration, value: Any, step: Step) -> Any:
 def _describe_steps(value: Any) -> str:
     """Describe the names below a value."""
     if isinstance(value, tuple):
-        return (
-            f"an index from [0] to [{len(value) - 1}]" if value else "left out: the list is empty"
-        )
+        return f"an index from [0] to [{len(value) - 1}]" if value else "omitted: the list is empty"
     names = list(type(value).model_fields) if isinstance(value, Checked) else []
     names += list(SCALED) if isinstance(value, Gains) else []
-    return f"one of {', '.join(names)}" if names else "left out: there is nothing below"
+    return f"one of {', '.join(names)}" if names else "omitted: the value has no fields"
 
 
 def _switch_on(value: Any, name: str) -> Any:

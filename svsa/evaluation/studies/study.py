@@ -97,7 +97,7 @@ class Study(Checked):
                 raise ParameterError(Violation(f"vary[{number}].path", path, "", "varied once"))
             whole = [one.path for one in self.vary if not _is_actuator(one)]
             if any(path.startswith((f"{other}.", f"{other}[")) for other in whole):
-                bound = "apart from the others: one that varies too holds it"
+                bound = "another path: a varied path already contains it"
                 raise ParameterError(Violation(f"vary[{number}].path", path, "", bound))
 
     def _check_actuators(self) -> None:

@@ -237,7 +237,7 @@ def estimate_sensitivity(study: Study, rows: pa.Table, law: str, outcome: str) -
     if outcome != SUCCEEDED and ended:
         raise StudyError(
             f"{ended} of {own.num_rows} runs of {law} ended in a fault and have no {outcome} to"
-            f" compare: ask for {SUCCEEDED}."
+            f" compare: use {SUCCEEDED}."
         )
     values = own[outcome].to_numpy().astype(float).reshape(samples, study.cells).T
     if np.ptp(values) == 0.0:

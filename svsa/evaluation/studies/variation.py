@@ -45,8 +45,8 @@ class _Variation(Checked):
 
 
 class _Range(_Variation):
-    low: Number = quantity("", "Least")
-    high: Number = quantity("", "Greatest")
+    low: Number = quantity("", "Smallest value")
+    high: Number = quantity("", "Largest value")
 
     @model_validator(mode="after")
     def _check_order(self) -> Self:
@@ -76,7 +76,7 @@ class LogUniform(_Range):
     """Log-uniform between low and high."""
 
     kind: Literal["log_uniform"] = "log_uniform"
-    low: Number = quantity("", "Least", gt=0)
+    low: Number = quantity("", "Smallest value", gt=0)
 
     def draw(self, shares: np.ndarray) -> list[Any]:
         """The values of these shares, 0 to 1."""

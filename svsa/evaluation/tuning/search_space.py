@@ -146,7 +146,7 @@ def build_space(law: str, held: Mapping[str, Any] | None = None) -> Space:
         ]
     else:
         if held:
-            bound = f"left out: {law} takes the run's gains, whose poles are all searched"
+            bound = f"omitted: {law} takes the run's gains, whose poles are all searched"
             raise ParameterError(Violation(next(iter(held)), next(iter(held.values())), "", bound))
         axes = [
             Axis(POSITION_POLE, None, "a", "rad/s", *POLE_RAD_PER_S),

@@ -99,7 +99,7 @@ def _read_section(given: Any, choose: "Callable[[DriveFamily], type[_Section]]")
                     field,
                     given[field],
                     "",
-                    f"left out: it belongs to drive = {name!r}, and drive is {family.name!r}"
+                    f"omitted: it belongs to drive = {name!r}, and drive is {family.name!r}"
                     f" (known drives: {known})",
                 )
                 for field, name in foreign.items()

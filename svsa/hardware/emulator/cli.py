@@ -75,7 +75,7 @@ def emulator(
     from svsa.hardware.schedule import EMULATOR_PRIORITY, request_real_time
 
     if file is not None and (actuator is not None or write_bench is not None):
-        bound = "left out with --file, which describes actuator and motors"
+        bound = "omitted with --file, which describes actuator and motors"
         name, value = ("--actuator", actuator) if actuator else ("--write-bench", str(write_bench))
         raise ParameterError(Violation(name, value, "", bound))
     parameters = (

@@ -56,7 +56,7 @@ def start_emulator(
         line = process.stdout.readline()
         found = _READY.search(line)
         if found is None:
-            raise EmulatorError(f"The emulator did not start: {line.strip() or 'it said nothing'}")
+            raise EmulatorError(f"The emulator did not start: {line.strip() or 'no output'}")
         with EmulatorControl(int(found[4])) as control:
             port, control_port = int(found[1]), int(found[4])
             yield RunningEmulator(port, found[2], found[3], control_port, control, process)

@@ -159,4 +159,4 @@ class Mechanics:
             self._x = State(*self._state.tolist())
             self.torque = Torque(*self._made.tolist())
         if not math.isfinite(sum(self._x)):
-            raise StateError("The emulated mechanism has left all bounds: home it.")
+            raise StateError("The simulation of the mechanism has diverged: home it.")

@@ -38,7 +38,7 @@ class Replay:
         except (OSError, ValueError, IndexError) as error:
             raise EncoderError(f"{self._path} cannot be replayed: {error}.") from None
         if not len(self._times) or np.any(np.diff(self._times) <= 0.0):
-            raise EncoderError(f"{self._path} cannot be replayed: its times must grow.")
+            raise EncoderError(f"{self._path} cannot be replayed: its times must increase.")
         self._start = None
 
     def feed(self, message: can.Message, time_s: float) -> bool:

@@ -47,7 +47,7 @@ def read_bench_design(bench: BenchFile) -> Design:
         design = design.changed(**{name: fields[name] for name in fields if name != "stiffness"})
     name = get_mechanism_name(design.actuator)
     if given.actuator not in (None, name):
-        bound = f"{name}, the actuator of {given.file}, or left out"
+        bound = f"{name}, the actuator of {given.file}, or omitted"
         raise ParameterError(Violation("design.actuator", given.actuator, "", bound))
     if not find_mechanism(design.actuator).has_stiffness_motor:
         bound = "an actuator with two motors: a bench has two drives"

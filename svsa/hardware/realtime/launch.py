@@ -122,7 +122,7 @@ class BenchProcesses:
             try:
                 self._read()
             except LinkClosedError:
-                raise BenchError(f"its loop has ended, which was {self.step}.") from None
+                raise BenchError(f"its loop ended while it was {self.step}.") from None
             while self.events:
                 heard, event = time.monotonic(), self.events.pop(0)
                 match event["event"]:
@@ -197,10 +197,10 @@ class BenchProcesses:
                 self._send(wanted, argument, time.monotonic() + self.patience_s)
 
     def _describe_silence(self) -> str:
-        what = "is silent" if self.alive else "is gone"
+        what = "has been silent" if self.alive else "ended; it has been silent"
         return (
-            f"The loop of the bench {what} since {self.silence_s:.1f} s: it accepts no"
-            " requests. Restart it."
+            f"The loop of the bench {what} for {self.silence_s:.1f} s: it accepts no requests."
+            " Restart it."
         )
 
     def _send(self, wanted: str, argument: Any, until: float) -> int:

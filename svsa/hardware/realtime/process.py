@@ -120,7 +120,7 @@ class LoopProcess:
             self._link.flush()
         except LinkClosedError:
             self._link, self._ending = None, True
-            self._stop("the server is gone")
+            self._stop("the server has ended")
         is_silent = self._beats.age_s("server") > self._server_s
         if self._plant.status is BenchStatus.RUN and is_silent:
             self._stop("the server is silent")

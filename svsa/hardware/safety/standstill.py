@@ -46,7 +46,7 @@ class Standstill:
             change = torque - self._torques[number]
             if abs(change) > self._most:
                 words = (
-                    f"The encoder of {AXIS_WORDS[axis]} stands still at {new} counts, although the"
+                    f"The encoder of {AXIS_WORDS[axis]} stays at {new} counts, although the"
                     f" torque on its axis has changed by {change:.3g} N·m since: its limit is"
                     f" {self._most:g} N·m. It is frozen or not connected, or the axis is jammed."
                 )

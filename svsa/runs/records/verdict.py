@@ -122,7 +122,7 @@ def judge(
     chosen = {name: tolerances.get(name, rest) for name in names}
     asked = {name: tolerance for name, tolerance in chosen.items() if tolerance is not None}
     if not ticks or not asked:
-        raise RecordError(f"Of runs {own.run_id} and {others.run_id} there is nothing to compare.")
+        raise RecordError(f"Runs {own.run_id} and {others.run_id} have nothing to compare.")
     channels = tuple(_judge_channels(run, other, asked, ticks, begins))
     held = left == others_left and all(one.held for one in channels)
     return Verdict(held, ticks, run.tick_count, other.tick_count, channels)

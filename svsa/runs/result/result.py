@@ -96,7 +96,7 @@ class Result(Channels):
         check_number("end_s", end_s, "s", start_s, end)
         rows = self.samples[round(start_s / period) - first : round(end_s / period) - first]
         if not len(rows):
-            bound = f"a stretch with samples between {begin:g} and {end:g} s"
+            bound = f"an interval with samples between {begin:g} and {end:g} s"
             raise ParameterError(Violation("(start_s, end_s)", (start_s, end_s), "s", bound))
         return compute_metrics(rows, period)
 

@@ -106,5 +106,5 @@ def check_size(duration_s: float, steps: int, period_s: float) -> int:
     check_number("duration_s", duration_s, "s", period_s, MAX_TICKS * period_s)
     check_number("steps", steps, "", 1, MAX_STEPS)
     if not isinstance(steps, int):
-        raise ParameterError(Violation("steps", steps, "", "a whole number"))
+        raise ParameterError(Violation("steps", steps, "", "an integer"))
     return round(duration_s / period_s)

@@ -18,7 +18,7 @@ HEADER_FIELDS: Final[tuple[tuple[FieldName, str, str], ...]] = (
     ("first_tick", "Q", "tick of the first sample"),
     ("stride", "I", "ticks from one sample to the next"),
     ("count", "I", "samples in this batch"),
-    ("missed", "I", "samples left out before it, for a client that was too slow"),
+    ("missed", "I", "samples before this batch that a slow client did not receive"),
     ("lanes", "I", "lanes in each sample"),
 )
 HEADER = struct.Struct("<" + "".join(code for _, code, _ in HEADER_FIELDS))

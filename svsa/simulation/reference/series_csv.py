@@ -89,7 +89,7 @@ def parse_series(text: str) -> SeriesPosition | SeriesStiffness:
         raise ParameterError(Violation("the head of the CSV", ",".join(head), "", bound))
     name, count = names[0], len(rows) - 1
     if not 2 <= count <= MAX_ROWS:
-        bound = f"from 2 to {MAX_ROWS} below the head"
+        bound = f"from 2 to {MAX_ROWS} below the header"
         raise ParameterError(Violation("the number of rows", count, "", bound))
 
     def place(name: str, number: int) -> str:

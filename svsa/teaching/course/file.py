@@ -130,7 +130,7 @@ def _build(
             raise ParameterError(Violation(f"line {line}: ## heading", section, "", bound))
     for number, step in enumerate(steps):
         if "text" in step:
-            bound = "left out: the text is under its heading"
+            bound = "omitted: the text belongs under its heading"
             raise ParameterError(Violation(f"steps[{number}].text", step["text"], "", bound))
         section = sections.get(known[number])
         if section is None or not section.text:

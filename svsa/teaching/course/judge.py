@@ -42,7 +42,7 @@ def judge_submission(
         bound = f"{exercise.name!r}, the exercise that is judged"
         raise ParameterError(Violation("exercise", submission.exercise, "", bound))
     if submission.law is not None and not exercise.takes_law:
-        bound = f"left out: {exercise.name} asks for no law"
+        bound = f"omitted: {exercise.name} requires no law"
         raise ParameterError(Violation("law_file", submission.law_file, "", bound))
     for name in (*submission.answers, *submission.runs):
         exercise.find_step(name)
@@ -100,7 +100,9 @@ def check_answer(step: Step, answer: Answer) -> None:
             if answer not in names:
                 raise ParameterError(Violation(step.name, answer, "", f"one of {', '.join(names)}"))
         case _:
-            raise ParameterError(Violation(step.name, answer, "", "left out: nothing is asked"))
+            raise ParameterError(
+                Violation(step.name, answer, "", "omitted: this step has no question")
+            )
 
 
 def read_measures(step: Experiment, result: Result) -> dict[str, Measured]:
@@ -138,7 +140,7 @@ def _judge_prediction(
         return none.changed(feedback=feedback, time_s=time_s)
     seen = read_measures(judge, run)[measure.name]
     if seen.value is None:
-        feedback = f"The run does not tell it: {seen.problem.rstrip('.')}."
+        feedback = f"The run has no such value: {seen.problem.rstrip('.')}."
         return none.changed(feedback=feedback, time_s=seen.time_s)
     off = _measure_off(float(answer), seen.value, step.by_factor)
     points = 0.0

@@ -88,7 +88,7 @@ class Measure(Checked):
         if self.to_s is not None and self.to_s <= self.from_s:
             raise ParameterError(Violation("to_s", self.to_s, "s", f"after {self.from_s:g} s"))
         if self.unit == DEGREE and not self._own_unit.startswith("rad"):
-            bound = f"left out: {self.channel} is in {self._own_unit or 'no unit'}"
+            bound = f"omitted: {self.channel} is in {self._own_unit or 'no unit'}"
             raise ParameterError(Violation("unit", self.unit, "", bound))
         return self
 

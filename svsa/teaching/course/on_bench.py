@@ -49,11 +49,11 @@ def check_for_bench(
         if path.partition(".")[0] in _OWN:
             raise _refuse("base", path, f"without {path}: a bench has its own")
     if comparisons:
-        bound = "left out: a bench is compared with its simulated twin only"
+        bound = "omitted: a bench is compared with its simulated twin only"
         raise _refuse("comparisons", list(comparisons), bound)
     for name in free:
         if name in _NOT_FREE:
-            raise _refuse("free", name, "left out: on a bench it cannot be chosen")
+            raise _refuse("free", name, "omitted: it cannot be chosen on a bench")
     for number, load in enumerate(loads):
         if not _is_hung(load):
             bound = "a mass or a torque on the link alone, from a time on: it is hung by hand"
@@ -72,7 +72,7 @@ def _check_measure(where: str, measure: Measure) -> None:
         raise _refuse(f"{where}.lane", measure.lane, bound)
     part = measure.setting.partition(".")[0].partition("[")[0]
     if measure.setting and part not in SET_ON_BENCH:
-        bound = f"a setting of {', '.join(SET_ON_BENCH)}: all else is the bench's own"
+        bound = f"a setting of {', '.join(SET_ON_BENCH)}: a bench has its own values of all others"
         raise _refuse(f"{where}.setting", measure.setting, bound)
 
 

@@ -126,9 +126,9 @@ def keep_answer(
     if isinstance(found, Predict):
         judge, _ = exercise.find_judge(found)
         if progress.get(judge.name).begun:
-            raise StateError(f"The run that judges {step!r} was begun: the prediction stays.")
+            raise StateError(f"The run of {step!r} has been set up: the prediction is final.")
     elif progress.get(step).answer is not None:
-        raise StateError(f"{step!r} was answered: the answer stays.")
+        raise StateError(f"{step!r} already has an answer, which is final.")
     return progress.with_step(step, answer=answer, done=True)
 
 
@@ -185,7 +185,7 @@ def keep_law(exercise: Exercise, progress: ExerciseProgress, law: SavedLaw) -> E
 def check_takes_law(exercise: Exercise, progress: ExerciseProgress) -> None:
     """Raise `StateError` if the exercise takes no law or was submitted."""
     if not exercise.takes_law:
-        raise StateError(f"Exercise {exercise.name!r} asks for no law.")
+        raise StateError(f"Exercise {exercise.name!r} requires no law.")
     _check_open(progress)
 
 
@@ -211,7 +211,7 @@ def find_missing(exercise: Exercise, progress: ExerciseProgress) -> list[str]:
 
 def _check_open(progress: ExerciseProgress) -> None:
     if progress.submitted_at is not None:
-        raise StateError("The exercise was submitted: nothing of it is changed any more.")
+        raise StateError("The exercise was submitted: it can no longer be changed.")
 
 
 def _sum(results: Sequence[CriterionResult]) -> float:

@@ -84,7 +84,7 @@ class Experiment(_Step, Setup):
                 bound = f"1 to {len(self.configuration.lanes)}, of the lanes that run"
                 raise ParameterError(Violation(f"{where}.lane", measure.lane, "", bound))
             if measure.tip_direction_rad is not None and not self._is_tip(measure.lane):
-                bound = "left out, or the run is one of an arm and `lane` that of joint 1"
+                bound = "omitted, unless the run is of an arm and `lane` is joint 1"
                 given = measure.tip_direction_rad
                 raise ParameterError(Violation(f"{where}.tip_direction_rad", given, "rad", bound))
             if measure.to_s is not None and measure.to_s > self.duration_s:
@@ -115,7 +115,7 @@ class Experiment(_Step, Setup):
 
     def _check_bench(self, criteria: tuple[Criterion, ...] | None, is_silent: bool) -> None:
         if is_silent:
-            bound = "what the user at the bench does at the times of its loads"
+            bound = "an instruction for the user at the bench, who adds the loads"
             raise ParameterError(Violation("bench.by_hand", "", "", bound))
         if criteria is None:
             return

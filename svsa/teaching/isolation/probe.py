@@ -44,7 +44,7 @@ def check_isolation() -> None:
         reported = error.output.strip().split("\n")[-1] or str(error)
         raise NotIsolatedError(f"the sandbox does not start ({reported})") from None
     if escaped or not tried:
-        raise NotIsolatedError(f"of {tried:.0f} ways out {escaped:.0f} are open")
+        raise NotIsolatedError(f"{escaped:.0f} of {tried:.0f} attempts to escape succeeded")
 
 
 def find_isolation_problem() -> str | None:

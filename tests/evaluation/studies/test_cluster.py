@@ -179,7 +179,7 @@ def test_no_workers_are_started_for_a_cluster_with_workers(tmp_path, monkeypatch
     """And no study is started."""
     monkeypatch.setenv("SVSA_DATA", str(tmp_path))
     run = ["study", "run", "gains", "--scheduler", "tcp://127.0.0.1:1", "--workers", "3"]
-    with pytest.raises(ParameterError, match="--workers is 3: it must be left out"):
+    with pytest.raises(ParameterError, match="--workers is 3: it must be omitted"):
         CliRunner().invoke(app, run, catch_exceptions=False)
     assert not list(tmp_path.iterdir())
 

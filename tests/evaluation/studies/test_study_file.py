@@ -73,7 +73,7 @@ def test_setting_varies_once_and_not_within_another(tmp_path):
     path = tmp_path / "wrong.toml"
     for other, reported in (
         ("actuator.link_inertia_kg_m2", "varied once"),
-        ("actuator", "apart from the others"),
+        ("actuator", "a varied path already contains it"),
     ):
         path.write_text(GOOD.replace("effects.delay_samples", other))
         with pytest.raises(ParameterError, match=reported):

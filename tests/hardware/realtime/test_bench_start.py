@@ -93,7 +93,7 @@ def test_stalled_loop_is_abandoned_with_its_last_step(start):
 
 
 def test_ended_loop_is_not_waited_for(start):
-    with pytest.raises(BenchError, match="has ended, which was opening the bus"):
+    with pytest.raises(BenchError, match="ended while it was opening the bus"):
         start([(1.0, starting("opening the bus")), (2.0, "closed")], 1e9)
 
 

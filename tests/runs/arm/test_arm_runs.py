@@ -177,7 +177,7 @@ def place(q1, q2):
         ({"experiment": "rod"}, "there is no such arm.*rods"),
         ({"experiment": None}, "there is no such arm.*rods"),
         ({"stifness": 3.0}, "stifness"),
-        ({"steps": 1.5}, "steps is 1.5: it must be a whole number"),
+        ({"steps": 1.5}, "steps is 1.5: it must be an integer"),
         ({"arm": {"length1_m": 0.3}}, "arm is .*: it must be svsa.ArmParameters"),
         ({"arm": RODS.changed(mass2_kg=50.0, length1_m=3.0)}, "about joint 1 .* is 451.*to 10 kg"),
         ({"tip_loads": [PUSH]}, r"tip_loads\[0\] is 'constant'.*loads of joint1 or joint2"),

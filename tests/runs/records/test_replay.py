@@ -142,7 +142,7 @@ GARBAGE = {
         "x: unknown field",
     ),
     "no name of a law": ({"tick": 3, "kind": "law", "argument": "P I D"}, f"here: {LAWS}."),
-    "a number as a text": ({"tick": 3, "kind": "unload", "argument": "1"}, "whole number"),
+    "a number as a text": ({"tick": 3, "kind": "unload", "argument": "1"}, "an integer"),
     "a list": ([], "command"),
     "null": (None, "command"),
 }

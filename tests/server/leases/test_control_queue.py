@@ -33,7 +33,7 @@ def settle(queue: ControlQueue, now: float, here: tuple[Holder, ...] = (ADA, BOB
 
 def test_free_session_is_commanded_by_the_instructor_only(queue: ControlQueue) -> None:
     assert [queue.admits(one) for one in (None, "p-1", TEACHER.client)] == [False, False, True]
-    with pytest.raises(HeldError, match="No user is in control of session lab: ask for control"):
+    with pytest.raises(HeldError, match="No user is in control of session lab: request control"):
         queue.check("p-1")
 
 
@@ -42,7 +42,7 @@ def test_first_request_gets_control_and_others_wait_in_order(queue: ControlQueue
     assert (queue.holder, queue.waiting) == (ADA, [BOB, EVE])
     assert [queue.find_place(one.client) for one in (ADA, BOB, EVE)] == [None, 1, 2]
     assert [queue.admits(one.client) for one in (ADA, BOB, TEACHER)] == [True, False, False]
-    with pytest.raises(HeldError, match="Ada is in control of session lab: ask for control, and"):
+    with pytest.raises(HeldError, match="Ada is in control of session lab: request control, and"):
         queue.check("p-2")
 
 

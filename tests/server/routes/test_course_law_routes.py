@@ -65,7 +65,7 @@ def test_invalid_or_unrequested_law_is_rejected(student, lab):
 
     other = Student(lab, find_exercise("mechanism")).try_law(LAZY.decode())
     assert other.status_code == 409
-    assert "asks for no law" in other.json()["detail"]
+    assert "requires no law" in other.json()["detail"]
 
 
 def test_submitted_law_has_a_reproducible_grade(student, data, own_law, tmp_path, monkeypatch):

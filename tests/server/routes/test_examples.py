@@ -34,7 +34,7 @@ NOT_HERE = {
     "POST /api/v1/sessions/{session}/bench/home": "no bench",
     "POST /api/v1/sessions/{session}/bench/endurance": "no bench",
     f"POST {COURSE}/steps/{{step}}/check": "the run is of another lab",
-    f"PUT {COURSE}/law": "the exercise asks for no law",
+    f"PUT {COURSE}/law": "the exercise requires no law",
     f"POST {COURSE}/submission": "the exercise is not done",
     "POST /api/v1/runs/{run_id}/verdict": "the run to judge by is of another lab",
 }

@@ -148,7 +148,7 @@ REFUSED = [
         "N·m",
         "at most 50 N·m",
     ),
-    ("POST", "step", {"ticks": 1.5}, "ticks", "ticks", "a whole number"),
+    ("POST", "step", {"ticks": 1.5}, "ticks", "ticks", "an integer"),
     ("POST", "experiment", {"figure": "9"}, "figure", "", "'4a', '4b' or '5'"),
     ("POST", "loads", {"kind": "mass", "mass_kg": -3}, "mass_kg", "kg", "greater than 0 kg"),
     (
@@ -157,7 +157,7 @@ REFUSED = [
         {"kind": "series", "time_s": [0, 0], "torque_nm": [[0, 0, 0], [0, 0, 0]]},
         "time_s",
         "s",
-        "growing",
+        "increasing",
     ),
 ]
 

@@ -206,8 +206,8 @@ def test_invalid_study_is_rejected_with_line_name_value_and_bound(lab):
     for asked, reported in (
         ({}, "source is missing"),
         ({"source": "load", "text": TEXT}, "not both"),
-        ({"source": "no_such"}, "a kept study, or one of actuators"),
-        ({"source": "../complete_study"}, "a kept study, or one of"),
+        ({"source": "no_such"}, "a saved study, or one of actuators"),
+        ({"source": "../complete_study"}, "a saved study, or one of"),
         ({"text": "title ="}, "a readable TOML file"),
         ({"source": "load", "runs": 10**8}, "at most 10000000 rows"),
         ({"source": "load", "laws": ["no_law"]}, "installed"),

@@ -165,7 +165,7 @@ def test_silent_loop_is_not_queried(
         raise AssertionError("it waited")
 
     monkeypatch.setattr(processes, "_rest", never)
-    with pytest.raises(BenchError, match=r"silent since 3\.0 s"):
+    with pytest.raises(BenchError, match=r"silent for 3\.0 s"):
         processes.request("stop", "a test")
     processes.report("stop", "a test")
     assert theirs.receive() == []

@@ -208,7 +208,7 @@ REFUSED = {
         lambda: svsa.SeriesLoad(time_s=(0.0, 0.0), torque_nm=(TRIPLE, TRIPLE)),
         [0.0, 0.0],
         "s",
-        "growing",
+        "increasing",
     ),
 }
 

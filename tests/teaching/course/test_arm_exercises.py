@@ -172,8 +172,8 @@ End.
     ("base", "measure", "said"),
     [
         ('arm = "rod"', "tip_direction_rad = 0.0", "there is no such arm.*rods"),
-        ('figure = "4a"', "tip_direction_rad = 0.0", "tip_direction_rad.*one of an arm"),
-        ('arm = "rods"', "tip_direction_rad = 0.0\nlane = 2", "that of joint 1"),
+        ('figure = "4a"', "tip_direction_rad = 0.0", "tip_direction_rad.*run is of an arm"),
+        ('arm = "rods"', "tip_direction_rad = 0.0\nlane = 2", "`lane` is joint 1"),
         ('arm = "rods"', 'tip_direction_rad = 0.0\nsetting = "seed"', "or else tip_direction_rad"),
         ('arm = "rods"\n"arm.joint2.stifness" = 3.0', "tip_direction_rad = 0.0", "stifness"),
     ],

@@ -79,7 +79,7 @@ WRONG = {
     "a setting that is the bench's own": (
         'channel = "position_error_rad"\nstatistic = "rms"',
         'setting = "nominal.link_inertia_kg_m2"\nstatistic = "mean"',
-        "all else is the bench's own",
+        "a bench has its own values of all others",
     ),
     "another plant": (
         'figure = "4a"\n',

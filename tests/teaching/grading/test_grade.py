@@ -116,7 +116,7 @@ def test_missing_law_has_no_points_and_unrequested_law_is_rejected(tmp_path):
     given = Submission(student="Ada", exercise="own-law")
     assert grade(given, OWN_LAW, tmp_path, SECRET).points == 0
     given = Submission(student="Ada", exercise=EXERCISE, law=LAZY)
-    with pytest.raises(svsa.ParameterError, match="asks for no law"):
+    with pytest.raises(svsa.ParameterError, match="requires no law"):
         grade(given, find_exercise(EXERCISE), tmp_path, SECRET)
 
 
@@ -181,5 +181,5 @@ def test_class_or_practice_must_be_chosen(tmp_path):
     path = submit_law(tmp_path / "ada", LAZY)
     with pytest.raises(svsa.ParameterError, match="or --practice instead"):
         run(path)
-    with pytest.raises(svsa.ParameterError, match="left out with --practice"):
+    with pytest.raises(svsa.ParameterError, match="omitted with --practice"):
         run(path, "--class", tmp_path, "--practice")

@@ -33,7 +33,7 @@ async def read_outcome(
         str,
         Path(
             max_length=64,
-            description="Its header `Idempotency-Key`",
+            description="Value of the header `Idempotency-Key` of the request",
             examples=["5f0c2a"],
         ),
     ],

@@ -59,9 +59,9 @@ class ReferencePreview(BaseModel):
 
     time_s: list[float]
     value: list[float] = Field(description="rad or N·m/rad")
-    low: float = Field(description="Least value")
-    high: float = Field(description="Greatest value")
-    peak_rate: float = Field(description="Greatest |first derivative|, rad/s or N·m/rad/s")
+    low: float = Field(description="Smallest value")
+    high: float = Field(description="Largest value")
+    peak_rate: float = Field(description="Largest |first derivative|, rad/s or N·m/rad/s")
 
 
 @router.post("/csv")
@@ -72,7 +72,7 @@ async def read_csv(
         Body(
             media_type="text/csv",
             description=f"time_s and position_rad, position_deg or stiffness_nm_per_rad; 2 to"
-            f" {MAX_ROWS} rows below this head",
+            f" {MAX_ROWS} rows below this header",
             examples=["time_s,position_deg\n0,0\n1,30\n2,0\n"],
         ),
     ],

@@ -187,6 +187,7 @@ async def load_experiment(
     tags=["stream"],
     status_code=426,
     operation_id="stream_session",
+    summary="Stream Samples",
     response_model=Problem,
     response_description="This is a WebSocket",
     description=describe_stream(BATCH_PERIOD_S),

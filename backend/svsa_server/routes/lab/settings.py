@@ -160,7 +160,7 @@ def set_parameters(
 ) -> SessionState:
     """Set parameters of laws that have their own, by the name of the law (see `GET /laws`).
 
-    Parameters that are left out keep their values.
+    Omitted parameters keep their values.
     """
     hosted.session.patch(lambda run: Set("parameters", _merge(run.parameters, request)), joint)
     return build_state(hosted)
@@ -216,7 +216,7 @@ def set_effects(
     ],
     joint: OfJoint = None,
 ) -> SessionState:
-    """Set the non-ideal effects of the simulation; an effect that is left out is off."""
+    """Set the non-ideal effects of the simulation; omitted effects are off."""
     hosted.session.patch(lambda _: Set("effects", effects), joint)
     return build_state(hosted)
 
@@ -252,7 +252,7 @@ def set_lane(
 ) -> SessionState:
     """Change the controller of one comparison lane; its plant keeps its state.
 
-    Settings that are left out are those of the session. The same law keeps its memory.
+    Omitted settings are those of the session. The same law keeps its memory.
     """
     setting = LaneSetting(lane=lane, setting=request)
     hosted.session.patch(lambda _: Set("lane", setting), joint)

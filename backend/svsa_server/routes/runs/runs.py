@@ -60,7 +60,7 @@ def list_runs(
     ] = None,
     load: Annotated[Facet, Query(description="Only runs with this kind of load, or none")] = None,
     figure: Annotated[
-        Facet, Query(description="Only runs with the references of this figure, as 4a")
+        Facet, Query(description="Only runs with the references of this figure, such as 4a")
     ] = None,
     plant: Annotated[Facet, Query(description="simulated, emulated or bench")] = None,
     sort: Annotated[

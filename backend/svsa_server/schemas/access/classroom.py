@@ -33,7 +33,7 @@ class ClassSession(BaseModel):
     """A private session."""
 
     session: str
-    owner: str = Field(description="Name of its owner; the id if the owner is gone")
+    owner: str = Field(description="Name of its owner; the id if the owner has left")
     status: str
     recording: bool
     watching: int

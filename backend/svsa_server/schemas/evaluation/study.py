@@ -91,7 +91,7 @@ def _find(source: str) -> Study:
         return read_study(source)[1]
     if is_kept(source):
         return open_study(source).study
-    bound = "a kept study, or one of " + ", ".join(list_built_in())
+    bound = "a saved study, or one of " + ", ".join(list_built_in())
     raise ParameterError(Violation("source", source, "", bound))
 
 

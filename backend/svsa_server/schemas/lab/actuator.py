@@ -54,8 +54,8 @@ class ActuatorState(ActuatorSummary):
 
     source: str = Field(description="Publication of the mechanism")
     is_compiled: bool = Field(
-        description="Whether a session with NDOBC opens at once; otherwise the first one compiles"
-        " its loop in a process of its own, and the request waits for it"
+        description="Whether a session with NDOBC opens at once; otherwise the first session"
+        " compiles its loop in a separate process, and the request waits"
     )
     compiling_s: float | None = Field(
         description="How long the first session has waited for the compiler, s: about 10 s; null"

@@ -10,7 +10,7 @@ from svsa_server.schemas.lab.gain import GainsRequest, Root
 
 
 class TriedDesign(Checked):
-    """Gains and observer to evaluate; fields left out keep the current values."""
+    """Gains and observer to evaluate; omitted fields keep the current values."""
 
     gains: GainsRequest | None = quantity("", "New gains, as for PUT …/gains", default=None)
     observer: ObserverBandwidth | None = quantity(

@@ -14,7 +14,7 @@ Pole = _Part | tuple[_Part, _Part]
 
 
 class GainsRequest(Checked):
-    """New gains, as poles or as coefficients of Eq 25; fields left out keep their values."""
+    """New gains, as poles or as coefficients of Eq 25; omitted fields keep their values."""
 
     position_poles_rad_per_s: tuple[Pole, Pole, Pole, Pole] | None = quantity(
         "rad/s", "Four closed-loop poles of position, each a real part or [re, im]", default=None
@@ -37,7 +37,7 @@ class GainsRequest(Checked):
         for part in ("position", "stiffness"):
             poles = getattr(self, f"{part}_poles_rad_per_s")
             if poles is not None and getattr(self, f"{part}_coefficients") is not None:
-                bound = f"left out where {part}_coefficients is given"
+                bound = f"omitted if {part}_coefficients is given"
                 raise ParameterError(Violation(f"{part}_poles_rad_per_s", list(poles), "", bound))
         return self
 

@@ -22,7 +22,7 @@ PartOfParameters = Annotated[dict[str, float | str], Field(max_length=20)]
 
 
 class FromFigure(FigureRequest):
-    """A figure of the paper, running; the default if `from` is left out."""
+    """A figure of the paper, running; the default if `from` is omitted."""
 
     source: Literal["figure"] = quantity("", "A figure", alias="from", default="figure")
     figure: Literal["4a", "4b", "5"] = quantity("", "Figure of the paper", default="4a")
@@ -159,7 +159,7 @@ SessionRequest = TypeAliasType(
 
 
 class FigureExperiment(FigureRequest):
-    """One of the paper's figures, from t = 0; the default if `from` is left out.
+    """One of the paper's figures, from t = 0; the default if `from` is omitted.
 
     Settings come from the figure; lanes and effects from the request. A bench has its own.
     """

@@ -29,7 +29,7 @@ class LawRequest(Checked):
     law: InstalledLaw = quantity("", "Name of an installed law: see GET /laws")
     comparison_laws: tuple[InstalledLaw, ...] = quantity(
         "",
-        "Laws of the comparison lanes in order; lanes left out keep theirs",
+        "Laws of the comparison lanes in order; omitted lanes keep their laws",
         max_length=MAX_LANES - 1,
         default=(),
     )

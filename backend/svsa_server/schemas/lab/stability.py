@@ -15,7 +15,7 @@ MAX_AT_ONCE = 400
 
 
 class DesignRequest(TriedDesign):
-    """A design to evaluate, stable or not; fields left out keep the current values."""
+    """A design to evaluate, stable or not; omitted fields keep the current values."""
 
     law: InstalledLaw | None = quantity("", "Another law: see GET /laws", default=None)
     stiffness_nm_per_rad: Number | None = quantity(

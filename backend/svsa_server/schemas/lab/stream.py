@@ -27,7 +27,7 @@ class StreamRequest(Checked):
 
     rate_hz: Number = quantity("Hz", "Sample rate", ge=1, le=10_000, default=200.0)
     lanes: tuple[Annotated[Whole, Field(ge=1, le=MAX_LANES)], ...] | None = quantity(
-        "", "Numbers of the lanes, from 1; None is all there are", default=(1,)
+        "", "Numbers of the lanes, from 1; None: all lanes", default=(1,)
     )
     history_s: Number = quantity(
         "s", "Length of the history to send first", ge=0, le=20, default=0.0
@@ -78,9 +78,8 @@ class StateMessage(BaseModel):
 
     type: Literal["state"] = "state"
     since_tick: int = Field(
-        description="Of `events`, of `ended_windows` and of the lanes' `segments` that have ended"
-        " only those at or after this tick are listed, or that ended then; earlier ones"
-        " stay valid. 0: the list is complete"
+        description="The message has only the `events`, `ended_windows` and ended `segments` of the"
+        " lanes from this tick on; earlier ones stay valid. 0: the lists are complete"
     )
     state: SessionState | SessionProgress
 
@@ -117,12 +116,14 @@ def describe_stream(batch_period_s: float) -> str:
             "Stream the samples over a **WebSocket** at this address (`ws://` or `wss://`); a plain"
             " GET is answered with 426.",
             "",
-            "Text messages are JSON, distinguished by `type`: `hello` first, `state` after every"
-            " change, and with the fields that change with time five times a second in the first"
-            " seconds of a window and once a second later, `error` before the stream is closed for"
-            " a wrong address. Their schema is that of the answer 101. Ended items are sent once: a"
-            " `state` has events, windows and segments that have ended from its `since_tick` on,"
-            " and those before stay valid.",
+            "Text messages are JSON, distinguished by `type`. The answer 101 has their schemas:",
+            "",
+            "* `hello` is the first message.",
+            "* `state` follows every change. In addition, a `state` with the fields that change"
+            " with time is sent five times a second in the first seconds of a window, and once a"
+            " second later. It contains the events, windows and segments that have ended from its"
+            " `since_tick` on; earlier ones stay valid and are not sent again.",
+            "* `error` is sent before the stream is closed because of a wrong address.",
             "",
             f"Binary messages are batches of samples, about {1 / batch_period_s:.0f} a second,"
             f" little-endian: a header of {HEADER.size} bytes,",
@@ -131,21 +132,21 @@ def describe_stream(batch_period_s: float) -> str:
             "|---|---|---|---|",
             *rows,
             "",
-            f"then `{LANE_ID}[lanes]` from byte {HEADER.size} on: of every lane the `id`"
-            " that it has in `state.lanes`. A lane keeps its id for the whole run, where lanes come"
-            " and refer to it; its place among them, which `hello.lanes` gives for the first batch,"
-            " may change.",
+            f"then `{LANE_ID}[lanes]` from byte {HEADER.size} on: the `id` of every lane in"
+            " `state.lanes`. A lane keeps its id during the run. Its position among the lanes may"
+            " change; `hello.lanes` has the order in the first batch.",
             "",
             f"Then `{VALUE}[count][lanes][channels]` from byte {HEADER.size} + 4 · lanes on, in the"
-            " order of these ids and of `hello.channels`; NaN is a value that is not known. A slow"
-            " client gets the newest samples, with what it lost in `missed`. Of a session that runs"
-            " many times faster than time each batch has the newest samples only, close together:"
-            " where the first tick is not the one that would follow, samples are missing.",
+            " order of these ids and of `hello.channels`. NaN is an unknown value. A slow client"
+            " receives the newest samples, and `missed` counts the samples that it did not receive."
+            " If a session runs many times faster than real time, each batch has consecutive"
+            " samples, with gaps between the batches: compare `first_tick` with the end of the"
+            " previous batch.",
             "",
-            f"Left out, `channels` is `{','.join(PLOTTED)}`.",
+            f"The default of `channels` is `{','.join(PLOTTED)}`.",
             "",
-            "Whatever the client sends holds the dead-man's switch of a bench for 0.1 s, as long as"
-            " the client may command.",
+            "Any message from the client holds the dead-man's switch of a bench for 0.1 s, if the"
+            " client may command.",
         ]
     )
 
@@ -154,8 +155,8 @@ def list_stream_parameters() -> list[dict[str, Any]]:
     """List the query parameters of the stream, as OpenAPI parameters."""
     bounds = StreamRequest.model_json_schema()["properties"]
     words = {
-        "lanes": f"`all`, or numbers from 1 to {MAX_LANES} with commas; lane 1 if left out",
-        "channels": "Comma-separated channel names; by default those of the plots",
+        "lanes": f"`all`, or numbers from 1 to {MAX_LANES} with commas; default: lane 1",
+        "channels": "Comma-separated channel names; default: see above",
         "client": "Client id, as in the header SVSA-Client, which browsers cannot send with a "
         "WebSocket",
     }

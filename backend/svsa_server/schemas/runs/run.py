@@ -32,11 +32,11 @@ Tags = Annotated[
 
 
 class RunPatch(Checked):
-    """Changes of a run; fields that are left out or null keep their values."""
+    """Changes of a run; omitted or null fields keep their values."""
 
     model_config = ConfigDict(json_schema_extra={"minProperties": 1})
 
-    name: RunName | None = quantity("", "Its name", default=None)
+    name: RunName | None = quantity("", "New name", default=None)
     tags: Tags | None = quantity("", "Tags, each once", default=None)
     notes: Notes | None = quantity("", "Notes", default=None)
     deleted: Literal[False] | None = quantity("", "false: restore it from the trash", default=None)
@@ -177,8 +177,8 @@ class RunMetrics(BaseModel):
     start_s: float
     end_s: float
     windows: list[WindowState] = Field(
-        description="Windows that the segment overlaps: with more than one, the metrics mix "
-        "what was before and after a change or a load; empty if unknown"
+        description="Windows that the segment overlaps. If there is more than one, the metrics mix"
+        " samples before and after a change or a load. Empty if unknown"
     )
     lanes: dict[str, Metrics | None] = Field(
         description="Metrics of each lane; null if its samples contain NaN"

@@ -143,6 +143,6 @@ def _check(name: str, value: Any, unit: str, least: int, most: int) -> int:
     except TypeError:
         number = None
     if number is None or not least <= number <= most:
-        bound = f"a whole number from {least} to {most}{f' {unit}' if unit else ''}"
+        bound = f"an integer from {least} to {most}{f' {unit}' if unit else ''}"
         raise FrameError(Violation(name, value, unit, bound))
     return number

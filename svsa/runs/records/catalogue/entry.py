@@ -193,7 +193,7 @@ class Query:
         for name, most in (("page", MAX_PAGES), ("page_size", MAX_PAGE_SIZE)):
             value = getattr(self, name)
             if isinstance(value, bool) or not isinstance(value, int) or not 1 <= value <= most:
-                bound = f"a whole number from 1 to {most}"
+                bound = f"an integer from 1 to {most}"
                 raise ParameterError(Violation(name, value, "", bound))
         if len(self.search) > LONGEST_SEARCH:
             bound = f"a text of at most {LONGEST_SEARCH} characters"

@@ -21,7 +21,7 @@ from svsa.runs.records.reader import Record, claim, open_record, recover
 from svsa.runs.records.settings import describe_settings
 
 CUT_OFF = "The recording was cut off."
-GONE = "Its folder is gone."
+GONE = "Its folder is missing."
 
 
 def index_runs(database: Database, runs: Path, trash: Path) -> Iterator[tuple[int, int]]:

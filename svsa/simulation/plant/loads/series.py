@@ -57,7 +57,9 @@ class SeriesLoad(AnyLoad):
             bound = f"as long as time_s, which has {len(times)} points"
             raise ParameterError(Violation("torque_nm", len(self.torque_nm), "points", bound))
         if times[0] < 0.0 or np.any(np.diff(times) <= 0.0):
-            raise ParameterError(Violation("time_s", list(times[:3]), "s", "growing from ≥ 0 on"))
+            raise ParameterError(
+                Violation("time_s", list(times[:3]), "s", "increasing, from 0 or later")
+            )
         return self
 
     def get_duration(self) -> float:

@@ -112,7 +112,7 @@ def build_spline(points: Points) -> Curve:
     miss = np.abs(coefficients[:, 0] - values)
     worst = int(np.argmax(miss))
     if not miss[worst] <= MAX_MISS * (1.0 + np.ptp(values)):
-        bound = "spaced more evenly: the spline misses its own points"
+        bound = "spaced more evenly: the spline misses the given points"
         place = points.place("time_s", worst)
         raise ParameterError(Violation(place, float(times[worst]), "s", bound))
     return Curve(times, coefficients)
