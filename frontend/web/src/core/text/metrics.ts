@@ -52,7 +52,7 @@ export const metricsText = {
     name: "Mechanical work",
     hint: "∫(|u₁ θ̇₁| + |u₂ θ̇₂|) dt, without energy recovery. The losses of the windings are not included, because their resistance is not known.",
   },
-  variation: { name: "Total variation", hint: "Σ|Δu| per second: how much the torque chatters" },
+  variation: { name: "Total variation", hint: "Σ|Δu| per second: a measure of chattering" },
   noise: {
     name: "Torque noise at rest",
     hint: "Standard deviation of the torque over the last 0.5 s of the window",

@@ -122,7 +122,7 @@ export const pageText = {
     stillUnknown:
       "No response: it is unknown whether the command was executed. Check the state before you repeat it.",
     missed: (count: number) => `${count} skipped`,
-    missedHint: "Samples left out because this browser could not keep up",
+    missedHint: "Samples skipped because this browser could not keep up",
   },
   meanwhile: {
     changed: "Another user changed this value; your change was not applied.",
