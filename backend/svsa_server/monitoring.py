@@ -51,7 +51,8 @@ class DiskWatch:
         if usage is not None and usage[0] < self._low:
             self.problem = (
                 f"The disk is nearly full: {usage[0] / _GB:.1f} GB are free, less than"
-                f" {self._low / _GB:g} GB. Delete runs or studies."
+                f" {self._low / _GB:g} GB. Delete studies, and the folders of deleted runs in"
+                " SVSA_DATA/trash."
             )
             if not was_low:
                 _log.warning("%s Folder: %s", self.problem, self._folder)

@@ -25,6 +25,7 @@ QUESTIONS = {
     "Which variable sets the shared secret?": "SVSA_SECRET Shared secret of at least 8 characters",
     "What does the fault deflection_limit mean?": "the actuator left the domain of the model",
     "How do I export a run to MATLAB?": 'svsa.export_run(result, "mat", "run.mat")',
+    "How does a lab report a nearly full disk?": "the lab logs a warning, ready answers 503",
     "What do I need before I switch a bench on?": "The emergency stop is hardware that you build",
 }
 CLICKS = 2

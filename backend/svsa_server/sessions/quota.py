@@ -34,7 +34,8 @@ class DiskQuota:
         if taken >= self._most:
             raise CatalogueError(
                 f"Your runs and studies take {taken / _MB:.0f} MB of the {self._most / _MB:.0f} MB"
-                " that each person has here: ask the instructor to delete some."
+                " that each person has here, deleted runs included: delete a study, or ask the"
+                " instructor for a larger quota (SVSA_QUOTA_MB)."
             )
 
     async def run(self) -> None:
