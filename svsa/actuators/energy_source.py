@@ -232,11 +232,13 @@ def _name_powers(
 ) -> tuple[list[tuple[str, str, Any]], dict[Any, Any]]:
     """Name the root and the reciprocal of a power's base, and the replacements of powers."""
     base = one.base
-    if one.exp.is_Integer and base.could_extract_minus_sign():
-        base = -base
     alike = [power for power in powers if power.is_Pow and power.base in (base, -base)]
-    half = sympy.Rational(1, 2)
-    unit = sympy.Integer(1) if all(power.exp.is_Integer for power in alike) else half
+    half, roots = sympy.Rational(1, 2), [power for power in alike if not power.exp.is_Integer]
+    unit = half if roots else sympy.Integer(1)
+    if roots:
+        base = roots[0].base
+    elif base.could_extract_minus_sign():
+        base = -base
     root, inverse = sympy.Symbol(f"root{count}"), sympy.Symbol(f"inverse{count}")
     names, replace = [], {}
     if unit == half:
