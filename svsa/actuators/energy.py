@@ -39,6 +39,8 @@ RESULTS: dict[str, Any] = {
 """The functions of an energy and their results."""
 _TESTED = 33
 """Number of values of s at which an energy is tested."""
+_RELAXED_RAD = 1e-9
+"""Largest deflection at which an energy may have its torque of zero: rounding."""
 
 
 class Energy(NamedTuple):
@@ -59,8 +61,8 @@ def compile_energy(mechanism: Mechanism) -> Energy:
         Its functions, in this process.
 
     Raises:
-        ParameterError: If the energy is not smooth, has no positive stiffness at φ = 0, or has a
-            stiffness that does not depend on s.
+        ParameterError: If the energy is not smooth, has a torque or no positive stiffness at φ = 0,
+            or has a stiffness that does not depend on s.
     """
     module = _load_module(mechanism)
     functions, addresses = {}, {}
@@ -74,15 +76,21 @@ def compile_energy(mechanism: Mechanism) -> Energy:
 
 
 def _check_stiffness(mechanism: Mechanism, energy: Energy) -> None:
-    """Reject an energy whose stiffness at φ = 0 is not positive or not monotonic in s."""
+    """Reject an energy whose stiffness at φ = 0 is not positive or not monotonic in s.
+
+    Also one with a torque at φ = 0: a run starts there, at rest.
+    """
     low, high = mechanism.coordinate
     values = [*mechanism.list_elastic(mechanism.prototype), *[0.0] * MAX_ELASTIC][:MAX_ELASTIC]
     slopes = []
     for i in range(_TESTED):
         s = low + (high - low) * i / (_TESTED - 1)
-        found = energy.functions["compute_state"](s, 0.0, *values).derivatives
+        torques, found = energy.functions["compute_state"](s, 0.0, *values)
         if not 0.0 < found.sigma < math.inf:
             text = f"its stiffness at φ = 0 and s = {s:.4g} is {found.sigma:.4g} N·m/rad, not > 0"
+            raise reject_energy(mechanism, text)
+        if abs(torques.torque) > _RELAXED_RAD * found.sigma:
+            text = f"its torque at φ = 0 and s = {s:.4g} is {torques.torque:.4g} N·m, not 0"
             raise reject_energy(mechanism, text)
         slopes.append(found.sigma_mu)
     if not (min(slopes) > 0.0 or max(slopes) < 0.0):

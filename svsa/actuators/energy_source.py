@@ -48,21 +48,17 @@ def write_source(mechanism: Mechanism) -> str:
         Text of a Python module.
 
     Raises:
-        ParameterError: If the energy is not smooth, contains a function that the lab does not
-            support, or has a stiffness that does not depend on s.
+        ParameterError: If the energy is not smooth, is not an expression of the symbols, contains a
+            function that the lab does not support, or has a stiffness that does not depend on s.
     """
     import sympy  # the import takes 0.3 s and is needed only for a new energy
 
     s, phi = sympy.symbols("s phi", real=True)
-    values = sympy.symbols(_PARAMETERS[: len(mechanism.elastic)], positive=True)
-    named = SimpleNamespace(**dict(zip(mechanism.elastic, values, strict=True)))
-    U = sympy.sympify(mechanism.energy(phi, s, named, sympy))
-    foreign = U.free_symbols - {s, phi, *values}
-    if foreign:
-        raise reject_energy(mechanism, f"it depends on {', '.join(map(str, foreign))}")
+    U = _read_energy(mechanism, sympy, s, phi)
     torque, reaction = U.diff(phi), U.diff(s)
     sigma = torque.diff(phi)
     _check_smooth(mechanism, sympy, [U, sigma.diff(phi, 2), sigma.diff(s, 2)])
+    _check_parts(mechanism, sympy, U)
     slope = sigma.diff(s)
     if not mechanism.has_stiffness_motor:
         if any(_shorten(sympy, one) != 0 for one in (reaction, slope, sigma.diff(phi))):
@@ -73,6 +69,9 @@ def write_source(mechanism: Mechanism) -> str:
         slope = sympy.Integer(1)
     elif _shorten(sympy, slope) == 0:
         raise reject_energy(mechanism, "its stiffness ∂²U/∂φ² does not depend on s")
+    relaxed = (one.subs(phi, 0) for one in (torque, sigma, sigma.diff(phi), sigma.diff(phi, 2)))
+    if any(one.has(sympy.nan, sympy.zoo, sympy.oo, -sympy.oo) for one in relaxed):
+        raise reject_energy(mechanism, "it is not smooth: a derivative is not finite at φ = 0")
     determinant = sigma * slope - torque.diff(s) * sigma.diff(phi)
     found = {
         "compute_torques": [torque, reaction],
@@ -95,6 +94,46 @@ def write_source(mechanism: Mechanism) -> str:
     }
     write = _build_writer(mechanism, sympy)
     return _HEAD + "".join(write(name, expressions) for name, expressions in found.items())
+
+
+def _read_energy(mechanism: Mechanism, sympy: Any, s: Any, phi: Any) -> Any:
+    """Call the actuator's function with symbols.
+
+    Raises:
+        ParameterError: If it fails, or does not return an expression of these symbols.
+    """
+    values = sympy.symbols(_PARAMETERS[: len(mechanism.elastic)], positive=True)
+    named = SimpleNamespace(**dict(zip(mechanism.elastic, values, strict=True)))
+    try:
+        U = sympy.sympify(mechanism.energy(phi, s, named, sympy), strict=True)
+    except Exception as error:
+        first, *_ = str(error).strip().split("\n")
+        finding = f"it is not an expression of symbols: {type(error).__name__}: {first}"
+        raise reject_energy(mechanism, finding) from error
+    if not isinstance(U, sympy.Expr):
+        finding = f"it is not an expression of symbols, but of type {type(U).__name__}"
+        raise reject_energy(mechanism, finding)
+    foreign = U.free_symbols - {s, phi, *values}
+    if foreign:
+        raise reject_energy(mechanism, f"it depends on {', '.join(map(str, foreign))}")
+    return U.replace(
+        lambda one: one.is_Pow and one.exp.is_Float and float(2 * one.exp).is_integer(),
+        lambda one: one.base ** sympy.Rational(one.exp),
+    )
+
+
+def _check_parts(mechanism: Mechanism, sympy: Any, U: Any) -> None:
+    """Reject functions and constants that the generated code cannot compute."""
+    names = [*_SINGLE, *(name for pair in _PAIRS for name in pair)]
+    functions = tuple(getattr(sympy, name) for name in names)
+    sums = sympy.Add, sympy.Mul, sympy.Pow, sympy.Symbol, sympy.NumberSymbol
+    for one in sympy.preorder_traversal(U):
+        if isinstance(one, sympy.Function) and not isinstance(one, functions):
+            known = ", ".join(names)
+            finding = f"it contains the function {type(one).__name__}; the lab computes {known}"
+            raise reject_energy(mechanism, finding)
+        if not (isinstance(one, (*sums, *functions)) or (one.is_Number and one.is_finite)):
+            raise reject_energy(mechanism, f"it contains {one}")
 
 
 def _check_smooth(mechanism: Mechanism, sympy: Any, expressions: list[Any]) -> None:
@@ -155,12 +194,13 @@ def _build_writer(mechanism: Mechanism, sympy: Any) -> Callable[[str, list[Any]]
             return f"({float(expr.p)!r}/{float(expr.q)!r})"
 
         def _print_Function(self, expr: Any) -> str:  # noqa: N802
-            name = type(expr).__name__
-            if name not in _SINGLE:
-                raise reject_energy(mechanism, f"it contains the function {name}")
-            return f"{name}({self._print(expr.args[0])})"
+            return f"{type(expr).__name__}({self._print(expr.args[0])})"
+
+        def _print_NumberSymbol(self, expr: Any) -> str:  # noqa: N802
+            return repr(float(expr))
 
         _print_exp = _print_log = _print_tanh = _print_Function
+        _print_Pi = _print_Exp1 = _print_NumberSymbol  # noqa: N815
 
     def write(name: str, expressions: list[Any]) -> str:
         named, expressions = _name_shared(mechanism, sympy, expressions)

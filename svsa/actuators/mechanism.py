@@ -41,7 +41,7 @@ class Mechanism:
         parameters: Class of its parameters; a field `mechanism` holds the name.
         elastic: Fields of the parameters that the energy depends on, at most `MAX_ELASTIC`.
         energy: U in J, a function (φ, s, p, m) of symbols: p has the fields `elastic`, m is sympy.
-            Smooth, and zero or constant at φ = 0.
+            Smooth, with a torque ∂U/∂φ of zero at φ = 0.
         coordinate: Lower and upper end of s, between which σ(0, s) is positive and monotonic.
         compute_slope: κ = ds/dθ2 from the parameters, 1/rad (or m/rad if s is a length).
         prototype: Parameters of the true plant.
@@ -92,6 +92,14 @@ class Mechanism:
         if not 1 <= len(self.elastic) <= MAX_ELASTIC:
             bound = f"1 to {MAX_ELASTIC} names of parameters"
             raise ParameterError(Violation("elastic", list(self.elastic), "", bound))
+        unknown = [name for name in self.elastic if name not in self.parameters.model_fields]
+        if unknown:
+            bound = f"names of parameters; there is none of the name {', '.join(unknown)}"
+            raise ParameterError(Violation("elastic", list(self.elastic), "", bound))
+        low, high = self.coordinate
+        if not -math.inf < low < high < math.inf:
+            bound = "two finite numbers, the lower end of s first"
+            raise ParameterError(Violation("coordinate", self.coordinate, "", bound))
         fields = {*self.parameters.model_fields, *Limits.model_fields} - {"mechanism"}
         if self.speed_max_rad_per_s is not None:
             fields.add("speed_max_rad_per_s")
