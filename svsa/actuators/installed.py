@@ -28,9 +28,30 @@ def _find_entries() -> dict[str, EntryPoint]:
     return {name: next(iter(entries.select(name=name))) for name in names}
 
 
+@cache
 def list_mechanism_names() -> tuple[str, ...]:
-    """The names of the actuators that are installed: the SVSA first."""
-    return tuple(_find_entries())
+    """The names of the actuators that are installed and load: the SVSA first."""
+    return tuple(name for name in _find_entries() if isinstance(_load(name), Mechanism))
+
+
+@cache
+def _load(name: str) -> Mechanism | str:
+    """Import an actuator once per process; return the error if it fails."""
+    entry = _find_entries()[name]
+    package = entry.dist.name if entry.dist else entry.module
+    try:
+        found = entry.load()
+    except Exception as error:
+        reported = f"{type(error).__name__}: {error}"
+        return f"the actuator {name} of the package {package} does not load: {reported}"
+    if not isinstance(found, Mechanism) or found.name != name:
+        contained = (
+            f"the actuator {found.name}"
+            if isinstance(found, Mechanism)
+            else f"an object of type {type(found).__name__}"
+        )
+        return f"the package {package} declares the actuator {name}, but contains {contained}"
+    return found
 
 
 @cache
@@ -45,17 +66,16 @@ def get_mechanism(name: str, field: str = "actuator") -> Mechanism:
         The actuator.
 
     Raises:
-        ParameterError: If no such actuator is installed, or its package defines another name.
+        ParameterError: If no such actuator is installed, its package does not load, or defines
+            another name.
     """
-    entry = _find_entries().get(name)
-    if entry is None:
+    if name not in _find_entries():
         known = list_mechanism_names()
         bound = f"an installed actuator: {', '.join(known)}{suggest(name, known)}"
         raise ParameterError(Violation(field, name, "", bound))
-    found = entry.load()
-    if not isinstance(found, Mechanism) or found.name != name:
-        bound = f"the actuator {name}, as the entry point {entry.value} says"
-        raise ParameterError(Violation(field, repr(found), "", bound))
+    found = _load(name)
+    if isinstance(found, str):
+        raise ParameterError(Violation(field, name, "", "", finding=found))
     return found
 
 

@@ -118,3 +118,38 @@ def test_package_adds_an_actuator(tmp_path):
     names, found = done.stdout.split("\n")[:2]
     assert set(names.split(",")) == {*NAMES, "cubic"}
     assert found == "True cubic"
+
+
+BROKEN_SCRIPT = """
+import svsa
+from svsa_server.schemas.lab.actuator import list_actuators
+print(*(one.name for one in list_actuators()))
+try:
+    svsa.simulate("4a", actuator="broken", duration_s=0.1)
+except svsa.ParameterError as error:
+    print(error)
+"""
+
+
+def test_package_that_does_not_load_leaves_the_other_actuators_in_the_lab(tmp_path):
+    (tmp_path / "broken.py").write_text("BROKEN = 1 / 0\n")
+    information = tmp_path / "broken_actuator-1.0.dist-info"
+    information.mkdir()
+    (information / "METADATA").write_text(
+        "Metadata-Version: 2.1\nName: broken-actuator\nVersion: 1.0\n"
+    )
+    (information / "entry_points.txt").write_text("[svsa.actuators]\nbroken = broken:BROKEN\n")
+    done = subprocess.run(
+        [sys.executable, "-c", BROKEN_SCRIPT],
+        env=os.environ | {"PYTHONPATH": os.pathsep.join([str(tmp_path), str(ROOT)])},
+        capture_output=True,
+        text=True,
+        timeout=300,
+    )
+    assert done.returncode == 0, done.stderr
+    names, reason = done.stdout.strip().split("\n")
+    assert names.split() == [*NAMES]
+    assert reason == (
+        "actuator: the actuator broken of the package broken-actuator does not load:"
+        " ZeroDivisionError: division by zero."
+    )
