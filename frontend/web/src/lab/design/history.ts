@@ -287,11 +287,19 @@ function renameLanes(design: Design, names: ReadonlyMap<string, string>): Design
   return { ...design, comparisons: Object.fromEntries(comparisons) };
 }
 
+/** The steps without the last ones that equal `state`. */
+function dropEqualSteps(state: SessionState): Design[] {
+  const kept = [...steps.peek()];
+  while (kept.length > 0 && restoringRequests(kept.at(-1) as Design, state).length === 0)
+    kept.pop();
+  return kept;
+}
+
 /** Undo one step, skipping those without a difference; resolves false if the server rejected it. */
 export async function undo(): Promise<boolean> {
   const state = session.peek();
   if (state === null || isUndoing) return false;
-  steps.value = steps.peek().filter((step) => restoringRequests(step, state).length > 0);
+  steps.value = dropEqualSteps(state);
   const last = steps.peek().at(-1);
   if (last === undefined) return false;
   const lost = lostLanes(last, designOf(state));

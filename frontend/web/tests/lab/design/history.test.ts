@@ -117,6 +117,21 @@ it("the motion of an identification is no step, because the reference is restore
   expect(steps.value.map(({ joints }) => joints[0]?.law)).toEqual(["ndobc"]);
 });
 
+// The answer of the server has no load.
+it("keeps the steps before the last ones that equal the current state", async () => {
+  const { steps, undo, watchDesign } = await import("../../../src/lab/design/history");
+  const { session } = await import("../../../src/core/state/session");
+  watchDesign();
+  for (const loads of [[], [row(1, "mass")], [], [row(2, "mass")]]) {
+    session.value = stateOf({}, loads);
+  }
+  session.value = stateOf({ law: "fl" }, [row(2, "mass")]);
+  await undo();
+  expect(steps.value.map(({ loads }) => loads.length)).toEqual([0, 1, 0]);
+  await undo();
+  expect(steps.value.map(({ loads }) => loads.length)).toEqual([0]);
+});
+
 const MOTION = { kind: "constant", value_rad: 0.1 };
 
 /** A session of an arm. */
