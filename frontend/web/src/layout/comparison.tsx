@@ -1,26 +1,16 @@
-import { useCallback } from "preact/hooks";
 import type { LaneRow, SessionState } from "../core/api/types";
 import { lineStyleOfLane } from "../core/plots/linestyles";
 import { type MetricsColumn, MetricsTable } from "../core/plots/metricstable";
 import { isArm } from "../core/state/arm";
 import { LANES_OF_ARM } from "../core/state/joints";
-import { isLive, samples } from "../core/state/session";
+import { isLive } from "../core/state/session";
 import { text } from "../core/text/en";
 import { formatNumber, toDegrees } from "../core/units";
-import { useLiveText } from "../core/widgets/live";
 import { AllMetricsButton } from "./allmetrics";
+import { CurrentError } from "./currenterror";
 import { bestIn, hasEnded, recoveryNameOf, recoveryOf, sinceOf } from "./window";
 
 const { compare } = text;
-
-function CurrentError({ lane }: { lane: number }) {
-  const read = useCallback(
-    () => formatNumber(toDegrees(samples.ring.newest("position_error_rad", lane)), 3, 3),
-    [lane],
-  );
-  const element = useLiveText<HTMLSpanElement>(read);
-  return <span ref={element} />;
-}
 
 const lookOf = ({ segments, lane }: LaneRow) =>
   lineStyleOfLane(
@@ -49,7 +39,7 @@ export function Comparison({ state }: { state: SessionState }) {
     {
       key: "now",
       title: inUnit(isLive.value ? compare.now : compare.lastKnown, compare.degrees),
-      cell: (row) => <CurrentError lane={lanes[row]?.lane ?? 1} />,
+      cell: (row) => <CurrentError of={lanes[row]} maxDigits={3} />,
     },
     {
       key: "rms",

@@ -1,19 +1,13 @@
 import type { SessionState } from "../core/api/types";
-import { isLive, samples } from "../core/state/session";
+import { isLive } from "../core/state/session";
 import { text } from "../core/text/en";
 import { formatNumber, toDegrees } from "../core/units";
-import { useLiveText } from "../core/widgets/live";
 import { AllMetricsButton } from "./allmetrics";
+import { CurrentError } from "./currenterror";
 import { type Recovery, recoveryNameOf, recoveryOf, sinceOf } from "./window";
 
 const degrees = (rad: number | null | undefined) =>
   formatNumber(rad === null || rad === undefined ? null : toDegrees(rad), 3, 4);
-const readError = () => degrees(samples.ring.newest("position_error_rad"));
-
-function CurrentError() {
-  const element = useLiveText<HTMLSpanElement>(readError);
-  return <span ref={element} />;
-}
 
 function Recovered({ recovery: { seconds, words } }: { recovery: Recovery }) {
   if (seconds === null) return <span class="muted">{words}</span>;
@@ -38,7 +32,7 @@ export function Readout({ state }: { state: SessionState }) {
           <AllMetricsButton state={state} />
         </dt>
         <dd>
-          <CurrentError /> <span class="unit">deg</span>
+          <CurrentError of={lanes[0]} maxDigits={4} /> <span class="unit">deg</span>
         </dd>
       </div>
       <div title={sinceOf(window)}>

@@ -1,6 +1,7 @@
 /** The window of the metrics in words, the recovery time in it, and the best lane. */
 import type { LaneRow, Metrics, SessionState, WindowState } from "../core/api/types";
 import { isLost } from "../core/plots/metricrows";
+import type { SampleRing } from "../core/stream/ring";
 import { text } from "../core/text/en";
 import { measuredText } from "../core/text/measured";
 import { formatNumber } from "../core/units";
@@ -28,24 +29,45 @@ export const hasEnded = (
   { time_s: now, window }: Pick<SessionState, "time_s" | "window">,
 ): boolean => lane.in_window === null && now - window.start_s > STEADY_STATE_S;
 
+const HALF_TICK_S = 0.0005;
+
+/**
+ * The newest position error of a lane, rad; NaN before the first sample of its controller, since
+ * a change while paused leaves the sample of the previous one.
+ */
+export function readCurrentError(ring: SampleRing, lane: number, controllerStartS: number): number {
+  if (ring.newestTime < controllerStartS - HALF_TICK_S) return Number.NaN;
+  return ring.newest("position_error_rad", lane);
+}
+
 /** The rows of the lanes of each joint; all rows for a single joint. */
 const groupOfJoints = (lanes: SessionState["lanes"]): number[][] =>
   [1, 2].map((joint) => [...lanes.keys()].filter((row) => (lanes[row]?.joint ?? 1) === joint));
 
 /** Whether the controllers of all lanes started before the window, or all with it. */
-const areComparable = ({ lanes, window }: Pick<SessionState, "lanes" | "window">): boolean =>
+const areInStep = ({ lanes, window }: Pick<SessionState, "lanes" | "window">): boolean =>
   new Set(lanes.map(({ segments }) => segments.at(-1)?.start_tick === window.start_tick)).size <= 1;
 
+/** Whether the window started with a controller that another lane had until then. */
+const haveExchanged = ({ lanes, window }: Pick<SessionState, "lanes" | "window">): boolean => {
+  const present = new Set(lanes.map(({ segments }) => segments.at(-1)?.number));
+  return lanes.some(({ segments }) => {
+    const [now, before] = [segments.at(-1), segments.at(-2)];
+    return now?.start_tick === window.start_tick && before && present.has(before.number);
+  });
+};
+
 /**
- * The lanes with the clearly smallest value, one for each joint of an arm. None on a bench, whose lanes have different plants, and
- * none if one controller alone started with the window, because the others responded to an earlier
- * load.
+ * The lanes with the clearly smallest value, one for each joint of an arm. None on a bench, whose
+ * lanes have different plants, none if one controller alone started with the window, because the
+ * others responded to an earlier load, and none if controllers exchanged their lanes, because they
+ * started from different states.
  */
 export const bestIn = (
   state: Pick<SessionState, "bench" | "lanes" | "window">,
   values: Parameters<typeof bestOf>[0],
 ): readonly number[] => {
-  if (state.bench !== null || !areComparable(state)) return [];
+  if (state.bench !== null || !areInStep(state) || haveExchanged(state)) return [];
   return groupOfJoints(state.lanes).flatMap((rows) => {
     const best = rows[bestOf(rows.map((row) => values[row]))];
     return best === undefined || rows.length < 2 ? [] : [best];

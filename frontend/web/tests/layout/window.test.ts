@@ -6,9 +6,17 @@ import type {
   SessionState,
   WindowState,
 } from "../../src/core/api/types";
+import { SampleRing } from "../../src/core/stream/ring";
 import { text as page } from "../../src/core/text/en";
 import { text as replay } from "../../src/core/text/replay";
-import { bestIn, hasEnded, recoveryNameOf, recoveryOf, sinceOf } from "../../src/layout/window";
+import {
+  bestIn,
+  hasEnded,
+  readCurrentError,
+  recoveryNameOf,
+  recoveryOf,
+  sinceOf,
+} from "../../src/layout/window";
 
 const window = (kind: WindowState["kind"], label: string): WindowState => ({
   kind,
@@ -51,6 +59,32 @@ it("marks no best value in a window that started with a single controller", () =
   expect(bestIn(lanesFrom(0, 5000), [0.002, 12.1])).toEqual([]);
   expect(bestIn(lanesFrom(0, 3000), [0.002, 12.1])).toEqual([0]);
   expect(bestIn(lanesFrom(5000, 5000), [0.002, 12.1])).toEqual([0]);
+});
+
+it("marks no best value where controllers exchanged their lanes and started from other states", () => {
+  const exchanged = lanesFrom(5000, 5000);
+  const numbers = [
+    [1, 2],
+    [2, 1],
+  ];
+  exchanged.lanes = numbers.map(([before, now]) => ({
+    segments: [
+      { number: before, start_tick: 0 },
+      { number: now, start_tick: 5000 },
+    ],
+  })) as LaneRow[];
+  expect(bestIn(exchanged, [0.002, 12.1])).toEqual([]);
+  const later = { ...exchanged, window: { ...window("load", "3 kg load"), start_tick: 9000 } };
+  expect(bestIn(later, [0.002, 12.1])).toEqual([0]);
+});
+
+it("shows no error of a controller before its first sample", () => {
+  const ring = new SampleRing(10, ["position_error_rad"], [7]);
+  const values = Float32Array.of(0.1, 0.2);
+  const batch = { run: 1, firstTick: 4990, stride: 5, count: 2, missed: 0, lanes: [7], values };
+  ring.append(batch, 0.001);
+  expect(readCurrentError(ring, 1, 4.995)).toBeCloseTo(0.2);
+  expect(readCurrentError(ring, 1, 4.998)).toBeNaN();
 });
 
 it("reports a lane as ended if it has no metrics half a second after the start of the window", () => {
