@@ -59,6 +59,30 @@ def test_first_view_has_few_controls_and_remembers_the_switch_to_all(page: Page,
     expect(amplitude).to_have_count(0)
 
 
+# The button at a point of the window, without its own icon.
+BUTTON_AT = """([x, y]) =>
+    document.elementFromPoint(x, y)?.closest("button")?.innerText.trim().split(/\\s/)[0] ?? "" """
+
+
+def test_second_press_at_the_switch_to_all_controls_presses_no_other_button(
+    page: Page, lab: Lab
+) -> None:
+    """Reset or Record under the pointer would restart or record the run."""
+    open_first(page, lab)
+    switch = page.get_by_role("switch", name="All controls")
+    for width, height in (*SIZES, (1600, 900)):
+        resize(page, width, height)
+        box = get_box(switch)
+        switch.press("Enter")
+        expect(page.get_by_role("spinbutton", name="Amplitude")).to_be_attached()
+        center = [box["x"] + box["width"] / 2, box["y"] + box["height"] / 2]
+        assert page.evaluate(BUTTON_AT, center) in ("", "All"), width
+        if width > 1400:
+            assert get_box(page.locator(".topbar"))["height"] < 60, "the top bar has two rows"
+        switch.press("Enter")
+        expect(page.get_by_role("spinbutton", name="Amplitude")).to_have_count(0)
+
+
 def test_load_law_and_comparison_are_in_the_first_view(page: Page, lab: Lab) -> None:
     open_first(page, lab)
     for part in (
