@@ -44,6 +44,13 @@ def test_studies_page_first_shows_a_finished_example(page: Page, fresh_lab: Lab)
     expect_no_violation(page, DESKTOP, PHONE)
 
 
+def test_finished_study_is_loading_until_its_runs_are_read(page: Page, fresh_lab: Lab) -> None:
+    page.route("**/studies/*/rows*", lambda _: None)
+    open_wide(page, fresh_lab, "studies")
+    expect(page.get_by_text("Loading the runs …")).to_be_visible(timeout=WORKER_MS)
+    expect(page.get_by_text("No run completed yet")).to_have_count(0)
+
+
 def test_falsifier_page_first_shows_a_finished_example(page: Page, fresh_lab: Lab) -> None:
     open_wide(page, fresh_lab, "falsifier")
     expect(page.get_by_role("heading", name=re.compile("^Example impulse-ndobc"))).to_be_visible()

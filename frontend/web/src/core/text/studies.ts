@@ -6,6 +6,7 @@ export const studiesText = {
     title: "Studies",
     lead: "Repeats one experiment with varied settings, for several laws on the same samples. Each dot is a run: select one to see it in 3D.",
     loading: "Loading the studies …",
+    loadingRuns: "Loading the runs …",
     kept: "My studies",
     state: (done: number, rows: number) =>
       `${done.toLocaleString("en")} of ${rows.toLocaleString("en")} runs`,

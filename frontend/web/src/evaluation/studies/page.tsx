@@ -159,7 +159,7 @@ function StudyView({ found }: { found: Study }) {
         {total > count && <p class="hint">{words.thinned(count, total)}</p>}
       </div>
       {count === 0 ? (
-        <p class="hint wide">{words.empty}</p>
+        <p class="hint wide">{found.done === 0 ? words.empty : words.loadingRuns}</p>
       ) : (
         <>
           <LawTable />
