@@ -17,6 +17,8 @@ def test_empty_list_has_instructions_and_then_the_first_run(page: Page, lab: Lab
     expect(page.get_by_role("button", name="Record", exact=True)).to_be_enabled()
     page.keyboard.press("o")
     expect(page.get_by_text("No recorded runs yet")).to_be_visible()
+    # The first view of the lab has no such button.
+    expect(page.get_by_text("Record (under All controls)")).to_be_visible()
     page.get_by_role("link", name="Lab", exact=True).click()
     page.get_by_role("button", name="Record", exact=True).click()
     page.get_by_role("button", name=re.compile("^Recording (?!0:00)")).click()

@@ -151,7 +151,7 @@ export const learningText = {
       plots: {
         title: "The plots",
         words:
-          "The reference is dotted, the chosen controller solid. With good tracking you see one line. The symbol next to a title opens its equation.",
+          "The reference is dotted, the chosen controller solid. With good tracking you see one line.",
       },
       load: {
         title: "The 3 kg load",
@@ -166,7 +166,7 @@ export const learningText = {
       all: {
         title: "All controls",
         words:
-          "This switch adds the reference, poles and gains, observer, non-ideal effects and more plots. The browser remembers it.",
+          "This switch adds the reference, poles and gains, observer, non-ideal effects, more plots and their equations. The browser remembers it.",
       },
     },
   },

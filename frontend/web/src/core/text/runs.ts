@@ -68,7 +68,7 @@ export const runsText = {
     trashHint: "Show deleted runs instead",
     emptyTitle: "No recorded runs yet",
     emptyText:
-      "In the lab, press Record (or R), hang 3 kg, and press Record again. The run then appears here.",
+      "In the lab, press Record (under All controls) or R, hang 3 kg, and press it again. The run then appears here.",
     emptyTrash: "The trash is empty.",
     nothing: "No run matches the filters.",
     showAll: "Show all runs",
