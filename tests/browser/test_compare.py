@@ -150,3 +150,23 @@ def test_recording_is_started_displayed_and_ended(page: Page, still_lab: Lab) ->
     expect(note).to_be_visible()
     assert get_box(page.locator(".lab")) == before, "the note moved the work"
     assert still_lab.read()["recording"] is None
+
+
+CUT_NAMES = """(plot) => [...document.querySelectorAll(`${plot} .legend-name`)]
+    .filter((one) => one.scrollWidth > one.clientWidth).map((one) => one.textContent)"""
+
+
+def test_legend_cuts_the_reference_before_the_laws(page: Page, still_lab: Lab) -> None:
+    """A bandwidth at the end of a name distinguishes two curves; FL and θ₁ are never cut."""
+    page.set_viewport_size({"width": 1440, "height": 900})
+    still_lab.client.put(still_lab.session + "/lanes", json={"comparisons": [{"law": "fl"}]})
+    open_page(page, still_lab)
+    for bandwidth in (60, 81):
+        observer = {"bandwidth_rad_per_s": [float(bandwidth)] * 3}
+        still_lab.client.put(still_lab.session + "/observer", json=observer).raise_for_status()
+        still_lab.jump(1)
+    legend = page.get_by_role("region", name="Position plot", exact=True)
+    expect(legend.get_by_role("button", name=re.compile("^NDOBC β 60"))).to_be_visible()
+    assert page.evaluate(CUT_NAMES, "[data-plot='position']") == ["reference"]
+    page.set_viewport_size({"width": 1280, "height": 720})
+    assert not {"FL", "true"} & set(page.evaluate(CUT_NAMES, ""))

@@ -60,6 +60,14 @@ export function useHidden() {
   return [hidden, toggle] as const;
 }
 
+const SHORT = 5;
+
+/** In a narrow legend the reference is cut first, and a short name, such as FL or θ₁, last. */
+function widthClassOf({ label, colour }: LegendEntry): string {
+  if (label.length <= SHORT) return "is-short";
+  return colour === "reference" ? "is-reference" : "";
+}
+
 /** One entry per curve with its value; a click hides the curve. */
 export function Legend({ note, entries, hidden, onToggle, ...rest }: LegendProps) {
   const { class: look = "legend", readings, isRead = () => true } = rest;
@@ -74,7 +82,7 @@ export function Legend({ note, entries, hidden, onToggle, ...rest }: LegendProps
         <button
           key={entry.key}
           type="button"
-          class="legend-entry"
+          class={`legend-entry ${widthClassOf(entry)}`}
           aria-pressed={!hidden.has(entry.key)}
           title={plotsText.plots.toggle(entry.label)}
           onClick={() => onToggle(entry.key)}
