@@ -125,7 +125,7 @@ def write_faults() -> str:
         f"## `{name}`\n\n**{kind.label}**: {kind.cause}.\n\n"
         f"* Occurs: {'bench' if kind.where == 'bench' else 'simulation and bench'}\n"
         + (f"* Zero current within {1000 * kind.within_s:g} ms\n" if kind.within_s else "")
-        + (f"* Advice: {kind.advice}\n" if kind.advice else "")
+        + f"* Advice: {kind.advice}\n"
         for name, kind in FAULTS.items()
     )
     return f"""# Faults

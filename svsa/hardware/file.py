@@ -94,7 +94,7 @@ class SafetySettings(Checked):
         default=1.0,
     )
     dead_man: Flag = quantity(
-        "", "Whether it runs only while the operator holds a switch", default=False
+        "", "Whether the bench runs only while the operator holds a switch", default=False
     )
     operator_s: Number = quantity(
         "s",
@@ -104,7 +104,7 @@ class SafetySettings(Checked):
         default=0.1,
     )
     needs_watcher: Flag = quantity(
-        "", "Whether it runs only while a stream of the session is open", default=True
+        "", "Whether the bench runs only while a stream of the session is open", default=True
     )
 
 
@@ -112,7 +112,7 @@ class DesignSettings(Checked):
     """The control design of this bench."""
 
     actuator: str | None = quantity(
-        "", "Installed actuator; by default that of the file, or the SVSA", default=None
+        "", "Installed actuator; default: the actuator of the file, or the SVSA", default=None
     )
     file: str | None = quantity(
         "", "Parameter file; by default the actuator's prototype", default=None

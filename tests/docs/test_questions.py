@@ -23,7 +23,7 @@ QUESTIONS = {
     "What is the recovery time?": "until the error stays within 2 % of its peak",
     "Does the same seed give the same noise?": "The same seed gives the same noise",
     "Which variable sets the shared secret?": "SVSA_SECRET Shared secret of at least 8 characters",
-    "What does the fault deflection_limit mean?": "the actuator left the domain of the model",
+    "What does the fault deflection_limit mean?": "the deflection φ reached its limit",
     "How do I export a run to MATLAB?": 'svsa.export_run(result, "mat", "run.mat")',
     "How does a lab report a nearly full disk?": "the lab logs a warning, ready answers 503",
     "What do I need before I switch a bench on?": "The emergency stop is hardware that you build",

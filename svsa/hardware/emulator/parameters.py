@@ -136,18 +136,18 @@ class EmulatorParameters(Checked):
     actuator: InstalledActuator = Field(default_factory=lambda: load_prototype().actuator)
     lever_ratio: Number = Field(
         default_factory=_choose_home,
-        description="s where θ2 = 0, of the SVSA μ; left out, that of the SVSA at 30 N·m/rad, of"
-        " another actuator at its default stiffness",
+        description="Stiffness coordinate s (of the SVSA μ) where θ2 = 0; default: the s of 30"
+        " N·m/rad, of another actuator the s of its default stiffness",
         json_schema_extra={"unit": "1"},
     )
     lever_ratio_min: Number = Field(
         default_factory=lambda given: _choose_stops(given)[0],
-        description="Lower stop of s, of the SVSA of μ",
+        description="Lower stop of s (of the SVSA of μ)",
         json_schema_extra={"unit": "1"},
     )
     lever_ratio_max: Number = Field(
         default_factory=lambda given: _choose_stops(given)[1],
-        description="Upper stop of s, of the SVSA of μ",
+        description="Upper stop of s (of the SVSA of μ)",
         json_schema_extra={"unit": "1"},
     )
     deflection_max_rad: Number = Field(
@@ -163,7 +163,7 @@ class EmulatorParameters(Checked):
     current_lag: CurrentLag | None = quantity("", "Lag of the current loops", default=CurrentLag())
     friction: Friction | None = Field(
         default_factory=_choose_friction,
-        description="Motor friction; left out, that of a gearbox which suits the torque limits",
+        description="Motor friction; default: a gearbox that suits the torque limits",
         json_schema_extra={"unit": ""},
     )
     gravity: LinkGravity | None = quantity("", "Weight of the link", default=None)

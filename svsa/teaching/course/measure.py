@@ -68,11 +68,11 @@ class Measure(Checked):
     lane: Whole = quantity("", "Number of the lane", ge=1, le=MAX_LANES, default=1)
     from_s: Number = quantity("s", "Start of the window", ge=0, default=0.0)
     to_s: Number | None = quantity(
-        "s", "End of the window; by default that of the run", gt=0, default=None
+        "s", "End of the window; default: the end of the run", gt=0, default=None
     )
     of: ChannelName | None = quantity("", "Channel that crosses the level", default=None)
     level: Number | None = quantity("", "Level, in the unit of its channel", default=None)
-    unit: str = quantity("", "Unit; by default that of the channel", default="", max_length=20)
+    unit: str = quantity("", "Unit; default: the unit of the channel", default="", max_length=20)
     per: StepName | None = quantity("", "Measure by which it is divided", default=None)
 
     @model_validator(mode="after")

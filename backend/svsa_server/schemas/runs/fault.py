@@ -16,8 +16,8 @@ class FaultKindState(BaseModel):
         description="Number of the fault in the rows of a study; null if it has none"
     )
     label: str = Field(description="Short label")
-    cause: str = Field(description="Description")
-    advice: str | None = Field(description="Advice; null if the message is sufficient")
+    cause: str = Field(description="Cause")
+    advice: str = Field(description="What to check or try next")
     where: Literal["bench", "both"] = Field(description="Whether the fault occurs on a bench only")
     within_s: float | None = Field(
         description="Longest time from the cause to zero current; null if no current can flow"
@@ -50,7 +50,7 @@ class SessionFault(RunFault):
     lane: int = Field(description="From 0")
     tick: int
     values: dict[str, float] = Field(description="SI values by name with unit")
-    advice: str | None = Field(description="Advice; null if the message is sufficient")
+    advice: str | None = Field(description="What to check or try next; null for an unknown code")
 
 
 def list_faults() -> list[FaultKindState]:

@@ -106,7 +106,7 @@ class _Chirp(AnyReference):
 
 
 class ChirpPosition(_Chirp, AnyPosition):
-    """A chirp of q_d: see `_Chirp`."""
+    """A chirp of q_d: offset + e(t) A sin(2π (f0 t + (f1 − f0) t²/(2 T))) with an envelope e."""
 
     first: ClassVar[Mapping[str, float] | None] = {
         "offset_rad": 0.0,
@@ -127,7 +127,7 @@ class ChirpPosition(_Chirp, AnyPosition):
 
 
 class ChirpStiffness(_Chirp, AnyStiffness):
-    """A chirp of σ_d, inside the range of the limits: see `_Chirp`."""
+    """A chirp of σ_d inside its limits: offset + e(t) A sin(2π (f0 t + (f1 − f0) t²/(2 T)))."""
 
     first: ClassVar[Mapping[str, float] | None] = {
         "offset_nm_per_rad": 30.0,

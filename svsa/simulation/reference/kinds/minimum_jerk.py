@@ -44,7 +44,7 @@ class _MinimumJerk(AnyReference):
 
 
 class MinimumJerkPosition(_MinimumJerk, AnyPosition):
-    """A movement of q_d: see `_MinimumJerk`."""
+    """A movement of q_d from rest to rest: a + (b − a)(10 s³ − 15 s⁴ + 6 s⁵), s = t/T."""
 
     first: ClassVar[Mapping[str, float] | None] = {
         "start_rad": 0.0,
@@ -69,7 +69,7 @@ class MinimumJerkPosition(_MinimumJerk, AnyPosition):
 
 
 class MinimumJerkStiffness(_MinimumJerk, AnyStiffness):
-    """A movement of σ_d, inside the range of the limits: see `_MinimumJerk`."""
+    """A movement of σ_d inside its limits: a + (b − a)(10 s³ − 15 s⁴ + 6 s⁵), s = t/T."""
 
     first: ClassVar[Mapping[str, float] | None] = {
         "start_nm_per_rad": 15.0,

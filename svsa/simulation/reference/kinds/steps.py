@@ -53,7 +53,7 @@ class _Steps(AnyReference):
 
 
 class StepsPosition(_Steps, AnyPosition):
-    """Steps of q_d: see `_Steps`."""
+    """Steps of q_d: at each time it moves smoothly to the next level, within `rise_s`."""
 
     position_rad: Annotated[tuple[_Position, ...], Field(min_length=1, max_length=MAX_STEPS)] = (
         quantity("rad", "A level for each time")
@@ -74,7 +74,7 @@ class StepsPosition(_Steps, AnyPosition):
 
 
 class StepsStiffness(_Steps, AnyStiffness):
-    """Steps of σ_d, inside the range of the limits: see `_Steps`."""
+    """Steps of σ_d inside its limits: at each time a smooth rise to the next level."""
 
     stiffness_nm_per_rad: Annotated[
         tuple[_Stiffness, ...], Field(min_length=1, max_length=MAX_STEPS)

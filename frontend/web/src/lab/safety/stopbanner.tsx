@@ -103,7 +103,7 @@ export function StopBanners() {
   );
 }
 
-/** Cause of a fault and what to try; nothing if its message already contains it. */
+/** What to check or try after a fault; nothing for a code that the lab does not know. */
 export function FaultAdvice({ fault: { advice } }: { fault: SessionFault }) {
   if (advice === null) return null;
   return (
