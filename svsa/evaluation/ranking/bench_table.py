@@ -98,5 +98,6 @@ def _describe_count(runs: BenchRuns, law: str) -> list[str]:
     no_worse, count = runs.count_no_worse(law, PAPERS_LAW)
     verdict = "" if law == PAPERS_LAW else f"No worse than NDOBC in {no_worse} of {count}. "
     return [
-        f"{verdict}By SVSA Lab {versions}, in lockstep; the same again: `svsa ranking bench {law}`."
+        f"{verdict}Run by SVSA Lab {versions} in lockstep. To repeat it:"
+        f" `svsa ranking bench {law}`."
     ]

@@ -231,8 +231,8 @@ def build_margins(name: str) -> str:
     for sigma, margins in compute_law_margins(name):
         lines.append(f"| {sigma:g} | {' | '.join(format_margins(margins))} |")
     text = (
-        "\nOf the sampled loop, linearized on the rig with the law's defaults, without limits of"
-        " torque: [how they are defined](../stability.md#margins). The same again:"
+        "\nThe sampled loop is linearized on the rig with the law's defaults, without torque"
+        " limits: see [the definitions](../stability.md#margins). To repeat it:"
         f" `svsa margins {name}`."
     )
     return "\n".join([*lines, text])
@@ -301,6 +301,6 @@ def describe_provenance(results: Results) -> str:
     versions = " and ".join(sorted({row.version for row in results.rows}))
     return (
         f"Simulated by SVSA Lab {versions}; protocol {results.protocol}, {results.trials} trials of"
-        f" each family, seed {results.seed}. Held: {results.criterion}. The same again:"
+        f" each family, seed {results.seed}. Held: {results.criterion}. To repeat it:"
         f" `svsa ranking run --trials {results.trials} --seed {results.seed}`."
     )

@@ -61,9 +61,10 @@ def build_index(results: Results, bench: BenchRuns) -> str:
     lines += ["", describe_provenance(results), "", *_NOT_IMPLEMENTED, ""]
     lines += ["## On the emulator", ""]
     lines += [
-        "The paper's bench figures through CAN, frame by frame, in lockstep: position errors in"
-        " degrees as the bench measures them (rms 1–5 s, peak after the cable's 2 N·m at 5 s, rms"
-        " 8–20 s), recovery in seconds, with the laws' defaults. The same again, for any law:"
+        "Figures 6A, 6B and 7 of the paper run on the emulator over CAN, in lockstep, with the"
+        " default parameters of the laws. The table has the measured position errors in degrees"
+        " (rms 1–5 s, peak after the cable's 2 N·m at 5 s, rms 8–20 s) and the recovery time in"
+        " seconds. To repeat it, for any law:"
         f" `svsa ranking bench {' '.join(bench.laws)}`.",
         "",
         format_bench(bench, PAPERS_LAW),
