@@ -117,7 +117,7 @@ class Lab(Remote):
         """Open a private simulated session, running; it ends automatically when unused.
 
         Args:
-            figure: Figure of the paper; must be left out with `actuator` and `arm`.
+            figure: Figure of the paper; must be omitted with `actuator` and `arm`.
             law: Name of the control law.
             actuator: Name of an actuator, such as "qbmove": its default experiment.
             arm: Name of an arm of two joints, such as "rods": its default experiment.

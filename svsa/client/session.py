@@ -275,7 +275,7 @@ class RemoteSession(RunningConnection):
         self._change("PUT", "/law", {"law": law, "comparison_laws": comparison_laws})
 
     def set_parameters(self, law: str, **values: float) -> None:
-        """Set parameters of a law that has its own; those left out keep their values.
+        """Set parameters of a law that has its own; omitted ones keep their values.
 
         Args:
             law: Name of the law.

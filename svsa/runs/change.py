@@ -20,7 +20,7 @@ _PLACE = ("at_s", "joint")
 
 
 class Change(Checked):
-    """The changes at a time of a run; fields left out keep their values.
+    """The changes at a time of a run; omitted fields keep their values.
 
     A law, gains, parameters of laws, an observer, a reference, the true plant, the nominal model or
     effects are in effect from the first tick at or after `at_s`; a load has its onset then.

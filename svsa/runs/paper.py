@@ -36,7 +36,7 @@ class Figure(NamedTuple):
         Args:
             law: Name of the control law.
             load: Whether the paper's 3 kg have their onset at 5 s.
-            design: Parameters, gains and limits; the paper's if left out.
+            design: Parameters, gains and limits; default: those of the paper.
 
         Returns:
             The configuration.

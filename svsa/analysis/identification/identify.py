@@ -64,8 +64,8 @@ class Identification(NamedTuple):
             and delay of the recorded torque, which are estimated as well.
         residual_rad: rms residuals of θ1, θ2 and φ, rad.
         used_s: Length of the record that was used, s.
-        loaded_s: Length left out because of a load, s.
-        dropped_s: Length left out because the model explains it far worse than the rest, s.
+        loaded_s: Length excluded because of a load, s.
+        dropped_s: Length excluded because the model explains it far worse than the rest, s.
         misfit: Residual divided by the sensor noise; about 1 if the model is right.
         undetermined: Parameters of Table 1 that the run did not excite enough.
     """

@@ -54,8 +54,8 @@ def identify(
 
     Args:
         source: Id or folder of a recorded run, a simulated result, or a CSV file (`.csv`).
-        parameters: For a CSV file: parameter file or `Design` with the known radius and γ; the
-            paper's if left out.
+        parameters: For a CSV file: parameter file or `Design` with the known radius and γ;
+            default: those of the paper.
         stiffness_nm_per_rad: For a CSV file: stiffness without deflection in its first row,
             N·m/rad.
         progress: Called with the finished share, 0 to 1.

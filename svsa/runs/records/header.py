@@ -201,7 +201,7 @@ def describe_newer(version: str) -> str:
         return ""
     return (
         f"Recorded by svsa {version[:40]}, which is newer than the installed {__version__}:"
-        " settings that are unknown here are left out."
+        " settings that are unknown here are ignored."
     )
 
 
