@@ -64,11 +64,13 @@ def build_arm_result_record(result: ArmResult, **known: Any) -> Record:
 
     Raises:
         ParameterError: If a field of the header is out of range.
-        StateError: If the result has no samples.
+        StateError: If the result is one of two arms of a run, or has no samples.
     """
+    arms = (result, *result.comparisons)
+    if len(arms) != len(result.configuration.controllers):
+        raise StateError("This result is one arm of a run: save the run that it belongs to.")
     if not result.samples.shape[1]:
         raise StateError("This run has no samples: it ended before its first tick.")
-    arms = (result, *result.comparisons)
     samples = np.concatenate([arm.samples for arm in arms]).transpose(1, 0, 2)
     given = {"session": SESSION, "steps": result.steps}
     header = build_header(result.configuration, samples.shape[1], **(given | known))
@@ -101,8 +103,8 @@ def save_run(
     Raises:
         ParameterError: If name, tags or notes are too long.
         RecordError: If the folder exists or cannot be written.
-        StateError: If the result is one of several lanes of a run or one joint of an arm, or has no
-            samples.
+        StateError: If the result is one of several lanes or arms of a run, or one joint of an arm,
+            or has no samples.
     """
     called = name or ("" if isinstance(result, ArmResult) else result.name)
     known: dict[str, Any] = {"name": called, "tags": tuple(tags), "notes": notes}

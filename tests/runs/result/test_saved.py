@@ -136,6 +136,15 @@ def test_joint_of_an_arm_is_not_saved_alone(tmp_path: Path) -> None:
     svsa.save_run(arm, tmp_path / "mine")
 
 
+def test_one_arm_of_two_is_not_saved_alone(tmp_path: Path) -> None:
+    """Its record would contain the law of the first arm and the samples of the second one."""
+    arm = svsa.simulate_arm(comparisons="fl", duration_s=0.05)
+    for one in (arm.comparisons[0], dataclasses.replace(arm, comparisons=())):
+        with pytest.raises(svsa.StateError, match="one arm of a run"):
+            svsa.save_run(one, tmp_path / "mine")
+    svsa.save_run(arm, tmp_path / "mine")
+
+
 def test_incomplete_run_is_not_saved(result: svsa.Result, tmp_path: Path) -> None:
     with pytest.raises(svsa.StateError, match="one lane of a run"):
         svsa.save_run(result.comparisons[0], tmp_path / "mine")
