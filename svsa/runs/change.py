@@ -69,6 +69,8 @@ def build_commands(
         ParameterError: If a time is after the end of the run, or an element is no `Change`.
     """
     commands: list[Command] = []
+    if not isinstance(changes, Iterable):
+        raise ParameterError(Violation("commands", changes, "", "a list of svsa.Change"))
     for change in changes:
         if not isinstance(change, Change):
             raise ParameterError(Violation("commands", change, "", "a list of svsa.Change"))

@@ -4,7 +4,7 @@ Unambiguous abbreviations are accepted: a number for a constant, one load for a 
 parameters. Files and REST accept the full form only.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, TypeAlias, TypedDict
 
 from pydantic import TypeAdapter, ValidationError
@@ -181,10 +181,7 @@ def read_setting(name: str, given: Any, present: Any) -> Any:
         ParameterError: If the value is invalid; the message describes valid ones.
     """
     if name in ("loads", "comparisons"):
-        read = read_load if name == "loads" else read_lane
-        if isinstance(given, _LISTED) or not isinstance(given, Iterable):
-            given = (given,)
-        return tuple(read(one, f"{name}[{number}]") for number, one in enumerate(given))
+        return _read_each(given, name, read_load if name == "loads" else read_lane)
     form = _FORMS.get(name)
     if form is None:
         return given
@@ -230,6 +227,22 @@ def _check(name: str, value: Any, given: Any, form: _Form) -> Any:
 
 _LOAD = _Form(Load, 'a load, such as svsa.PaperLoad() or {"kind": "paper"}')
 _LANE = _Form(Lane, 'svsa.Lane(law="fl"), or the name of a law')
+
+
+def _read_each(given: Any, name: str, read: Callable[[Any, str], Any]) -> tuple[Any, ...]:
+    """Read each element of a list; anything else is a list of one element."""
+    if isinstance(given, _LISTED) or not isinstance(given, Iterable):
+        given = (given,)
+    return tuple(read(one, f"{name}[{number}]") for number, one in enumerate(given))
+
+
+def read_loads(given: Any, name: str) -> tuple[AnyLoad, ...]:
+    """Return loads from one load or several, also from dicts.
+
+    Raises:
+        ParameterError: If one is not a load; the message contains `name` and its number.
+    """
+    return _read_each(given, name, read_load)
 
 
 def read_load(given: Any, name: str = "load") -> AnyLoad:

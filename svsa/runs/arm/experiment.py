@@ -10,10 +10,10 @@ from svsa.errors import ParameterError, Violation
 from svsa.inputs.checked import check_number
 from svsa.runs.configuration import ArmSetup, Configuration
 from svsa.runs.experiment import build_actuator_experiment
-from svsa.runs.shorthand import change_configuration, read_load
+from svsa.runs.shorthand import change_configuration, read_loads
 from svsa.simulation.arm.tip_reference import TipReference
 from svsa.simulation.plant.loads import Load
-from svsa.simulation.plant.loads.load import TIP, AnyLoad
+from svsa.simulation.plant.loads.load import TIP
 from svsa.simulation.reference.kinds.reference import AnyPosition
 from svsa.simulation.reference.kinds.sine import SinePosition
 
@@ -105,6 +105,9 @@ def build_arm_experiment(
     arm = first.require_arm()
     joints = []
     for number, (joint, own) in enumerate(zip(split_joints(first), each, strict=True), start=1):
+        if not isinstance(own, Mapping) or not all(isinstance(name, str) for name in own):
+            bound = 'a dict of settings by name, such as {"stiffness": 40}'
+            raise ParameterError(Violation(f"joint{number}", own, "", bound))
         try:
             joints.append(_change_joint(joint, {**both, **own}))
         except ParameterError as error:
@@ -132,8 +135,7 @@ def reject_position(tip: TipReference) -> ParameterError:
 
 
 def _read_tip_loads(given: Load | Sequence[Load]) -> tuple[Load, ...]:
-    given = (given,) if isinstance(given, AnyLoad) else given
-    loads = tuple(read_load(one, f"tip_loads[{number}]") for number, one in enumerate(given))
+    loads = read_loads(given, "tip_loads")
     for number, load in enumerate(loads):
         if load.acts_as != TIP:
             bound = "a load at the tip; give a load on a joint as loads of joint1 or joint2"

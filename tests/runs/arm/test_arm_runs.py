@@ -24,7 +24,7 @@ KNOWN = {
     ("ndobc", False): (0.070, 0.102, 0.100, 0.189),
     ("fl", True): (0.003, 0.015, 0.50, 1.15),
 }
-"""ACTUATORS.md: rms of q1 and q2 before and after the load, degrees."""
+"""The prototype: rms of q1 and q2 before and after the load, degrees."""
 
 
 def measure_deg(result, *windows):
@@ -185,6 +185,10 @@ def place(q1, q2):
         ({"loads": svsa.PushLoad(torque_nm=(1.0, 0.0, 0.0))}, "joint2.loads is 'push'.*joint 1"),
         ({"tip": ELLIPSE, "position": 0.3}, "arm.tip is 'ellipse'.*replaces"),
         ({"tip": ELLIPSE, "joint2": {"position": 0.3}}, "arm.tip is 'ellipse'.*replaces"),
+        ({"tip_loads": 3}, r"^tip_loads\[0\] is 3: it must be a load"),
+        ({"joint1": "fl"}, "^joint1 is 'fl': it must be a dict of settings by name"),
+        ({"joint2": {1: 2}}, "^joint2 is .* a dict of settings by name"),
+        ({"commands": None}, "^commands is missing: it must be a list of svsa.Change"),
     ],
 )
 def test_invalid_setting_of_an_arm_is_named_in_the_error(given, message):
@@ -195,8 +199,10 @@ def test_invalid_setting_of_an_arm_is_named_in_the_error(given, message):
 def test_one_load_at_the_tip_needs_no_list():
     options = {"law": "fl", "duration_s": 0.05}
     load = LOAD.changed(start_s=0.01)
-    one, listed = (svsa.simulate_arm(tip_loads=given, **options) for given in (load, [load]))
-    assert one.samples.tobytes() == listed.samples.tobytes()
+    written = {"kind": "tip_mass", "mass_kg": 0.1, "start_s": 0.01}
+    given = load, [load], written
+    one, *others = (svsa.simulate_arm(tip_loads=loads, **options) for loads in given)
+    assert [run.samples.tobytes() for run in others] == [one.samples.tobytes()] * 2
 
 
 def test_options_of_a_configuration_stay_unless_they_are_given():
