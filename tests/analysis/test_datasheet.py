@@ -15,6 +15,7 @@ from svsa.actuators.installed import get_mechanism
 from svsa.actuators.mechanism import Published
 from svsa.actuators.reach import find_deflection
 from svsa.actuators.signals import State, Torque
+from svsa.analysis.datasheet import measure
 from svsa.analysis.datasheet.measure import (
     NOMINAL_SHARE,
     _compare,
@@ -113,6 +114,21 @@ def test_workspace_of_torque_and_speed_needs_a_stated_speed_limit():
     damped = mechanism.prototype.changed(link_damping_nms_per_rad=10.0)
     stalled = _list_speeds(replace(mechanism, prototype=damped), 2.0)
     assert stalled[-1] == pytest.approx((0.2, 0.0))
+
+
+@pytest.mark.parametrize("name", ["mass_kg", "presets", "stiffness_range_nm_per_rad"])
+def test_published_figure_that_is_none_of_the_datasheet_is_rejected(name):
+    member, found = get_mechanism("sea"), measure_datasheet("sea")
+    with pytest.raises(ParameterError, match=f"published is .*{name}.* by the field"):
+        _compare(found, replace(member, published={name: Published((1.0,), "a paper")}))
+
+
+def test_name_of_the_mechanism_is_no_assumed_parameter(monkeypatch):
+    member = get_mechanism("sea")
+    sources = {**member.sources, "mechanism": "assumed"}
+    own = replace(member, sources=sources)
+    monkeypatch.setattr(measure, "get_mechanism", lambda _: own)
+    assert "mechanism" not in measure.measure_datasheet("sea").assumed
 
 
 def test_actuator_without_stiffness_motor_has_no_variation():

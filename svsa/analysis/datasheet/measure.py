@@ -22,7 +22,7 @@ from svsa.actuators.mechanism import Mechanism
 from svsa.actuators.reach import find_deflection, find_stiffness_range
 from svsa.actuators.signals import CHANNEL_INDEX, Torque
 from svsa.control.limits import are_at_limit
-from svsa.errors import ParameterError
+from svsa.errors import ParameterError, Violation
 from svsa.inputs.checked import Checked, Number, quantity
 from svsa.runs.change import Change
 from svsa.runs.result.simulate import simulate
@@ -33,7 +33,7 @@ from svsa.simulation.reference.kinds.minimum_jerk import MinimumJerkStiffness
 PRESETS = 5
 POINTS = 41
 NOMINAL_SHARE = 0.5
-"""Nominal torque as a share of the peak torque, unless a publication gives another value."""
+"""Nominal torque as a share of the peak torque."""
 VARIED = (0.1, 0.9)
 """Share of the stiffness range, in ln σ, for the stiffness-variation time."""
 SETTLED = 0.05
@@ -126,7 +126,8 @@ def measure_datasheet(name: str) -> Datasheet:
         compared with the published figures.
 
     Raises:
-        ParameterError: If no such actuator is installed.
+        ParameterError: If no such actuator is installed, or a published figure of it is not one of
+            a datasheet.
     """
     mechanism = get_mechanism(name)
     parameters, limits = mechanism.prototype, mechanism.limits
@@ -161,7 +162,11 @@ def measure_datasheet(name: str) -> Datasheet:
         torque_stiffness=[one for one in ranges if one[1] <= one[2]],
         speed_max_rad_per_s=speeds[-1][0] if speeds else None,
         torque_speed=speeds,
-        assumed=[key for key, source in mechanism.sources.items() if source.startswith("assumed")],
+        assumed=[
+            key
+            for key, source in mechanism.sources.items()
+            if source.startswith("assumed") and key != "mechanism"
+        ],
     )
     return found.changed(published=_compare(found, mechanism))
 
@@ -170,8 +175,11 @@ def _compare(found: Datasheet, mechanism: Mechanism) -> list[PublishedFigure]:
     """The published figures of an actuator next to the measured ones."""
     compared = []
     for name, (published, source) in mechanism.published.items():
-        value = getattr(found, name)
+        value = getattr(found, name, "")
         measured = [] if value is None else np.atleast_1d(value).tolist()
+        if measured and (len(measured) != len(published) or not isinstance(measured[0], float)):
+            bound = "figures by the field of the datasheet: one number, or both ends of a range"
+            raise ParameterError(Violation("published", {name: published}, "", bound))
         pairs = zip(measured, published, strict=bool(measured))
         compared.append(
             PublishedFigure(
