@@ -75,7 +75,7 @@ def test_two_students_join_wait_and_hand_over(open_page, room: Room) -> None:
     ada.get_by_label("Your name").fill("Ada")
     ada.get_by_label("Class code").fill("XXXX-XXXX")
     ada.get_by_role("button", name="Join", exact=True).click()
-    expect(ada.get_by_text("That is not the code of this class.")).to_be_visible()
+    expect(ada.get_by_text("ask the instructor for the current code")).to_be_visible()
     expect_no_violation(ada, WIDE, PHONE)
     ada.set_viewport_size({"width": 1280, "height": 720})
     join(ada, "Ada", room.reported.code)

@@ -91,7 +91,8 @@ async def join(
     if not await authentication.check_code(wanted.code):
         _count(request, "codes", account)
         await authentication.patience.wait(address)
-        return answer_problem(401, "wrong_code", "That is not the code of this class.")
+        wrong = "This is not the code of this class: ask the instructor for the current code."
+        return answer_problem(401, "wrong_code", wrong)
     person = await authentication.join(wanted.name, Role[wanted.role.upper()])
     code = await authentication.renew_rejoin_code(person)
     assert code is not None  # noqa: S101  who has just joined has a membership
