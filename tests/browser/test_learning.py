@@ -50,6 +50,24 @@ def test_tour_is_offered_once_usable_by_keyboard_and_repeatable(page: Page, lab:
     expect(tour).to_be_hidden()
 
 
+# Distance between the upper edges of the two zoom buttons, px.
+ZOOM_STEP = """() => {
+    const [above, below] = [...document.querySelectorAll(".plot-tools [aria-label^=Zoom]")]
+        .map((one) => one.getBoundingClientRect().top);
+    return below - above;
+}"""
+
+
+def test_zoom_buttons_stay_together_in_an_exercise(page: Page, lab: Lab) -> None:
+    lanes = {"comparisons": [{"law": "fl"}]}
+    lab.client.put(lab.session + "/lanes", json=lanes).raise_for_status()
+    page.goto(f"{lab.url}/?learn=feedback-linearization")
+    expect(page.get_by_role("table", name="Comparison of controllers")).to_be_visible()
+    expect(page.get_by_role("button", name="Zoom in")).to_be_visible()
+    assert page.evaluate(ZOOM_STEP) == 0
+    lab.client.put(lab.session + "/lanes", json={"comparisons": []}).raise_for_status()
+
+
 def test_tour_restores_load_and_lanes(page: Page, lab: Lab) -> None:
     """Of a session with a load and a comparison lane: the tour removes both, then restores them."""
     lab.client.post(lab.session + "/loads", json={"kind": "paper"}).raise_for_status()

@@ -132,12 +132,14 @@ export function Toolbar({ isBasic }: { isBasic: boolean }) {
       {!isBasic && (
         <>
           <WindowPicker />
-          <ZoomButton name={text.plots.zoomOut} factor={ZOOM} path="M1 5.2h10v1.6H1z" />
-          <ZoomButton
-            name={text.plots.zoomIn}
-            factor={1 / ZOOM}
-            path="M1 5.2h4.2V1h1.6v4.2H11v1.6H6.8V11H5.2V6.8H1z"
-          />
+          <span class="zoom-group">
+            <ZoomButton name={text.plots.zoomOut} factor={ZOOM} path="M1 5.2h10v1.6H1z" />
+            <ZoomButton
+              name={text.plots.zoomIn}
+              factor={1 / ZOOM}
+              path="M1 5.2h4.2V1h1.6v4.2H11v1.6H6.8V11H5.2V6.8H1z"
+            />
+          </span>
           <span class="plot-tools-end">
             <PlotPicker />
             <button
