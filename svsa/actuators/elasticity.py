@@ -34,7 +34,9 @@ from svsa.numerics.compilation import compiled
 from svsa.numerics.exponential import log
 from svsa.numerics.simd.choice import choose, greatest, least, some
 
-_NEWTON_STEPS = 12
+_NEWTON_STEPS, _HALVINGS = 12, 60
+_FOUND = 1e-9
+"""Largest relative difference of a stiffness that Newton's method has found."""
 
 
 class Actuator(NamedTuple):
@@ -205,14 +207,30 @@ def _inverse_of_svsa(actuator: Actuator, sigma: float, _: float) -> float:
 
 
 @compiled
+def _halve_coordinates(actuator: ElasticActuator, sigma: float) -> float:
+    """The s with σ(s, 0) = σ_d, or the end of s that is nearest to it."""
+    low, high = actuator.lowest, actuator.highest
+    is_rising = _stiffness_of_energy(actuator, high, 0.0) > _stiffness_of_energy(actuator, low, 0.0)
+    soft, stiff = choose(is_rising, low, high), choose(is_rising, high, low)
+    for _i in range(_HALVINGS):
+        middle = 0.5 * (soft + stiff)
+        is_below = _stiffness_of_energy(actuator, middle, 0.0) < sigma
+        soft, stiff = choose(is_below, middle, soft), choose(is_below, stiff, middle)
+    return 0.5 * (soft + stiff)
+
+
+@compiled
 def _inverse_of_energy(actuator: ElasticActuator, sigma: float, _: float) -> float:
-    """Newton for ln σ(s, 0) = ln σ_d, inside the ends of s."""
+    """Newton for ln σ(s, 0) = ln σ_d, inside the ends of s; if it fails, halving."""
     low, high = actuator.lowest, actuator.highest
     s = 0.5 * (low + high)
     for _i in range(_NEWTON_STEPS):
         found = _derivatives_of_energy(actuator, s, 0.0)
         step = log(sigma / found.sigma) * found.sigma / found.sigma_mu
         s = least(greatest(s + step, low), high)
+    lost = abs(_stiffness_of_energy(actuator, s, 0.0) - sigma) > _FOUND * sigma
+    if some(lost):
+        s = choose(lost, _halve_coordinates(actuator, sigma), s)
     return s
 
 

@@ -8,6 +8,7 @@ import pytest
 import svsa
 from svsa.actuators.domain import build_domain
 from svsa.actuators.dynamics import build_actuator
+from svsa.actuators.elasticity import compute_coordinate_for_stiffness, compute_stiffness_of
 from svsa.actuators.energy import compile_energy
 from svsa.actuators.installed import get_mechanism
 from svsa.actuators.reach import find_stiffness_range
@@ -133,3 +134,32 @@ def test_lever_arm_of_maccepa_is_shorter_than_its_distance():
             svsa.ParameterError, match=r"^arm_m is .* less than distance_m, 0\.125 m"
         ):
             prototype.changed(arm_m=arm)
+
+
+def waver(phi, s, p, m):
+    """Its stiffness rises everywhere, with slopes between which Newton's method does not settle."""
+    return p.bending_nm_m3 * (2 * s + m.sin(6 * s) / 4) * phi**2
+
+
+def saturate(phi, s, p, m):
+    return p.bending_nm_m3 * (1.2 - m.tanh(2 * s - 2)) * phi**2
+
+
+@pytest.mark.parametrize("energy", [waver, saturate])
+def test_coordinate_of_a_stiffness_is_found_where_newton_does_not_converge(energy):
+    mechanism = build_wrong(energy, coordinate=(0.05, 3.0))
+    addresses = compile_energy(mechanism).addresses
+    actuator = build_actuator(mechanism.prototype, 0.0)._replace(
+        lowest=0.05,
+        highest=3.0,
+        **{
+            f"{name}_address": addresses[f"compute_{name}"]
+            for name in ("torques", "margin", "state")
+        },
+    )
+    for s in np.linspace(0.05, 3.0, 41):
+        sigma = compute_stiffness_of(actuator, s, 0.0)
+        found = compute_coordinate_for_stiffness(actuator, sigma)
+        assert compute_stiffness_of(actuator, found, 0.0) == pytest.approx(sigma, rel=1e-9)
+    ends = [compute_coordinate_for_stiffness(actuator, sigma) for sigma in (1e-6, 1e6)]
+    assert sorted(ends) == pytest.approx([0.05, 3.0], rel=1e-9)
