@@ -150,11 +150,11 @@ export const runsText = {
   overlay: {
     title: "Overlay",
     aligned: {
-      window: "Time 0 is the onset of the last load.",
+      window: "Time 0 is the onset of the last load, or the event named in the legend.",
       start: "Time 0 is the start of each run: not every run had a load.",
     },
-    fromStart: "no load: from the start",
-    fromChange: (change: string) => `no load: from ${change}`,
+    fromStart: "from the start",
+    fromChange: (change: string) => `from ${change}`,
     error: "Position error",
     stiffness: "Stiffness error",
     degrees: "deg",

@@ -72,6 +72,10 @@ export interface OverlayCurve {
 export const nameCurve = ({ isAlone, runName, lane }: OverlayCurve): string =>
   isAlone ? runName : text.overlay.curve(runName, lane);
 
+/** Start of the window of the metrics, if it is another event than a load. */
+export const nameWindow = ({ window }: Pick<OverlayCurve, "window">): string =>
+  window?.label ? text.overlay.fromChange(window.label) : text.overlay.fromStart;
+
 function readLane(samples: RunSamples, lane: string): OverlayCurve["values"] {
   const read = (channel: OverlayChannel) =>
     (samples.lanes[lane]?.[channel] ?? []).map((value) =>

@@ -16,6 +16,7 @@ import { drawBands, drawEdges, drawOutside, drawWorst } from "./drawnverdict";
 import {
   CHANNELS,
   nameCurve,
+  nameWindow,
   type OverlayChannel,
   type OverlayCurve,
   readCurves,
@@ -88,10 +89,6 @@ function OverlayPlot(props: PlotProps) {
   );
 }
 
-/** Window of the metrics of a run without a load. */
-const beginningOf = ({ window }: OverlayCurve): string =>
-  window?.label ? words.fromChange(window.label) : words.fromStart;
-
 const isMeasuredInPart = ({ startS, changedS }: OverlayCurve): boolean =>
   startS !== 0 || changedS !== null;
 
@@ -101,7 +98,7 @@ const measuredOf = ({ startS, changedS, time }: OverlayCurve): string =>
 function Remark({ curve }: { curve: OverlayCurve }) {
   return (
     <>
-      {!curve.startsWithLoad && <small class="unit"> {beginningOf(curve)}</small>}
+      {!curve.startsWithLoad && <small class="unit"> {nameWindow(curve)}</small>}
       {isMeasuredInPart(curve) && <small class="unit"> {measuredOf(curve)}</small>}
     </>
   );

@@ -25,6 +25,7 @@ let describeDegrees: typeof import("../../../src/runs/list/columns").describeDeg
 let describeMeasured: typeof import("../../../src/runs/list/measured").describeMeasured;
 let explainSteadyState: typeof import("../../../src/runs/list/measured").explainSteadyState;
 let overlay: typeof import("../../../src/runs/list/overlaycurves").overlay;
+let nameWindow: typeof import("../../../src/runs/list/overlaycurves").nameWindow;
 let explainDifference: typeof import("../../../src/runs/list/overlaycurves").explainDifference;
 let drawSpark: typeof import("../../../src/runs/list/sparkline").drawSpark;
 let findWords: typeof import("../../../src/runs/list/highlight").findWords;
@@ -38,7 +39,7 @@ beforeAll(async () => {
   ({ readPlace, writePlace } = await import("../../../src/runs/list/place"));
   ({ describeMeasured, explainSteadyState } = await import("../../../src/runs/list/measured"));
   ({ describeDegrees } = await import("../../../src/runs/list/columns"));
-  ({ overlay } = await import("../../../src/runs/list/overlaycurves"));
+  ({ nameWindow, overlay } = await import("../../../src/runs/list/overlaycurves"));
   ({ explainDifference } = await import("../../../src/runs/list/overlaycurves"));
   ({ drawSpark } = await import("../../../src/runs/list/sparkline"));
   ({ findWords, excerpt } = await import("../../../src/runs/list/highlight"));
@@ -136,6 +137,10 @@ describe("the window of the metrics of a run", () => {
     expect(later[0]?.window).toMatchObject({ start_s: 0.5, end_s: 3.5 });
     const [other] = overlay(details({ ...run, window: whole }), samples);
     expect(other).toMatchObject({ startsWithLoad: false, changedS: null });
+    const removal = { ...window, kind: "unload", label: "3 kg load off" };
+    const [removed] = overlay(details({ ...run, window: removal }), samples);
+    // The run had a load: it was removed.
+    expect(nameWindow(removed as never)).toBe("from 3 kg load off");
     expect(explainDifference([curve, other] as never, null)).toMatch(/start with different events/);
     expect(explainDifference([curve, curve] as never, null)).toBe("");
   });
