@@ -87,7 +87,7 @@ class Mechanism:
 
     def __post_init__(self) -> None:
         if not NAME.fullmatch(self.name):
-            bound = "a small letter, then up to 39 small letters, digits or _"
+            bound = "a lowercase letter, then up to 39 lowercase letters, digits or _"
             raise ParameterError(Violation("name", self.name, "", bound))
         if not 1 <= len(self.elastic) <= MAX_ELASTIC:
             bound = f"1 to {MAX_ELASTIC} names of parameters"

@@ -294,11 +294,11 @@ def _check_fixed(session: RemoteSession, wanted: Configuration) -> None:
     for name, value in state["configuration"]["limits"].items():
         if value != limits[name]:
             raise ParameterError(
-                Violation(f"limits.{name}", limits[name], "", f"{value}, the lab's")
+                Violation(f"limits.{name}", limits[name], "", f"{value}, as in the lab")
             )
     if abs(state["rate_hz"] * wanted.sampling.period_s - 1.0) > 1e-9:
         period = 1.0 / state["rate_hz"]
-        bound = f"{period:g} s, the lab's"
+        bound = f"{period:g} s, as in the lab"
         raise ParameterError(Violation("sampling.period_s", wanted.sampling.period_s, "s", bound))
 
 

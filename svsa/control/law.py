@@ -106,7 +106,7 @@ class Law:
 
     def __post_init__(self) -> None:
         if not NAME.fullmatch(self.name):
-            bound = "a small letter, then up to 39 small letters, digits or _"
+            bound = "a lowercase letter, then up to 39 lowercase letters, digits or _"
             raise ParameterError(Violation("name", self.name, "", bound))
         is_measuring(self.control)
         front = _name_front(self._start.dtype)

@@ -64,6 +64,6 @@ def _check_identifiers(messages: list[Message]) -> None:
     for message in messages:
         identifier = (message.frame_id, message.is_extended_frame)
         if identifier in names:
-            bound = f"another than that of {names[identifier]}"
+            bound = f"different from the id of {names[identifier]}"
             raise ParameterError(Violation(f"id of {message.name}", message.frame_id, "", bound))
         names[identifier] = message.name

@@ -202,7 +202,7 @@ def read_bench(path: Path | str) -> BenchFile:
     one, two = bench.motor1, bench.motor2
     if (one.drive, one.place) == (two.drive, two.place):
         field = two.address_field
-        violation = Violation(f"motor2.{field}", getattr(two, field), "", "another than motor1's")
+        violation = Violation(f"motor2.{field}", getattr(two, field), "", "different from motor1's")
         raise ParameterError(violation)
     for name, motor in (("motor1", one), ("motor2", two)):
         for section in ("bus", "supervisor_bus"):

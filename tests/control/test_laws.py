@@ -274,7 +274,7 @@ def test_record_of_a_law_that_fails_to_load_shows_its_name(install):
 
 
 def test_law_without_name_or_with_unknown_estimate_is_invalid():
-    with pytest.raises(svsa.ParameterError, match="small letter"):
+    with pytest.raises(svsa.ParameterError, match="lowercase letter"):
         dataclasses.replace(WATCH, name="Watch!")
     with pytest.raises(svsa.ParameterError, match="w2, w4, w6"):
         dataclasses.replace(WATCH, memory=type(get_law("fl_integral").memory()))

@@ -51,7 +51,7 @@ def test_motor_specific_values_have_no_default(tmp_path: Path) -> None:
         ("motor1__torque_constant_nm_per_a", float("nan"), "torque_constant_nm_per_a"),
         ("motor1__efficiency", 1.2, "motor1.efficiency is 1.2: it must be at most 1"),
         ("motor2__drive_number", 0, "motor2.drive_number is 0"),
-        ("motor2__drive_number", 1, "another than motor1's"),
+        ("motor2__drive_number", 1, "different from motor1's"),
         (
             "motor2__position_min_rad",
             9.0,

@@ -97,5 +97,5 @@ def _check_continuous(configuration: Configuration, sigma: float, loop: ClosedLo
         )
         if is_same_error and math.isclose(slowest, loop.slowest, rel_tol=_CLOSE, abs_tol=_CLOSE):
             return
-    bound = "one whose continuous loop has the poles and the rest of its sampled loop"
+    bound = "a law whose continuous model has the poles and steady state of its sampled loop"
     raise ParameterError(Violation("law", get_title(c.law), "", bound))

@@ -29,7 +29,7 @@ _NAME = re.compile(r"[0-9A-Za-z][0-9A-Za-z_.-]{0,63}", re.ASCII)
 def check_name(name: str) -> None:
     """Raise `ParameterError` for an invalid name."""
     if not _NAME.fullmatch(name):
-        bound = "1 to 64 letters, digits, -, _ or ., the first no sign"
+        bound = "1 to 64 letters, digits, -, _ or .; the first one a letter or digit"
         raise ParameterError(Violation("name", name, "", bound))
 
 

@@ -103,7 +103,7 @@ class Study(Checked):
     def _check_actuators(self) -> None:
         unused = sorted({*self.actuators} - {*self.varied_actuators})
         if unused:
-            bound = f"an actuator that vary names: {', '.join(self.varied_actuators) or 'none'}"
+            bound = f"an actuator that is varied: {', '.join(self.varied_actuators) or 'none'}"
             raise ParameterError(Violation(f"actuators.{unused[0]}", unused[0], "", bound))
 
     def _check_sensitivity(self) -> None:

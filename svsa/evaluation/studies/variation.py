@@ -94,7 +94,7 @@ class Normal(_Range):
     @model_validator(mode="after")
     def _check_share(self) -> Self:
         if self._cut()[1] <= 0.0:
-            bound = f"a range that has a share of N({self.mean:g}, {self.std:g}²)"
+            bound = f"a range that N({self.mean:g}, {self.std:g}²) samples"
             raise ParameterError(Violation("low", self.low, "", bound))
         return self
 

@@ -181,7 +181,7 @@ class EmulatorParameters(Checked):
         one, two = self.motor1, self.motor2
         if (one.drive, one.place) == (two.drive, two.place):
             name = two.address_field
-            bound = "another than motor1's"
+            bound = "different from motor1's"
             raise ParameterError(Violation(f"motor2.{name}", getattr(two, name), "", bound))
         return self
 

@@ -272,7 +272,7 @@ class BenchSession:
 
     def step(self, ticks: int) -> None:
         """Raise `StateError`: a bench has no single ticks."""
-        raise StateError("A bench runs in real time: it cannot advance by single ticks.")
+        raise StateError("A bench runs in real time: it cannot run single ticks.")
 
     def set_speed(self, factor: float) -> None:
         """Raise `StateError`: a bench runs in real time."""

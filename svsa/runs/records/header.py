@@ -84,7 +84,7 @@ class RecordHeader(Checked):
     @model_validator(mode="after")
     def _check(self) -> Self:
         if not is_run_id(self.run_id):
-            bound = "1 to 64 letters, digits, - or _, the first no sign"
+            bound = "1 to 64 letters, digits, - or _; the first one a letter or digit"
             raise ParameterError(Violation("run_id", self.run_id, "", bound))
         if not _is_time(self.created):
             bound = "a time of ISO 8601 with its zone, as 2026-01-02T03:04:05+00:00"
@@ -266,5 +266,5 @@ def check_text(name: str, text: str, longest: int, least: int = 0) -> None:
     try:
         text.encode()
     except UnicodeEncodeError:
-        bound = "a text without halves of characters (surrogates)"
+        bound = "valid Unicode text, without surrogates"
         raise ParameterError(Violation(name, text, "", bound)) from None

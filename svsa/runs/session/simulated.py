@@ -139,7 +139,7 @@ class SimulatedSession:
             StateError: Unless the session is paused.
         """
         if self.status != "paused":
-            raise StateError(f"The session is {self.status}: pause it to go by single ticks.")
+            raise StateError(f"The session is {self.status}: pause it to run single ticks.")
         self._advance(ticks)
         self.journal.version += 1
 

@@ -72,7 +72,7 @@ def test_law_is_linearized_after_its_initialization(law):
 @pytest.mark.parametrize("law", ["ndobc_w", "adrc", "linear_dob"])
 def test_law_without_a_continuous_model_is_rejected_by_name(law):
     title = get_law(law).title
-    with pytest.raises(svsa.ParameterError, match=f"law is '{title}': it must be one whose cont"):
+    with pytest.raises(svsa.ParameterError, match=f"law is '{title}': it must be a law whose cont"):
         assess(build(law), 15.0)
 
 

@@ -71,7 +71,7 @@ def test_rows_equal_single_runs_and_are_summarized_by_actuator(tmp_path):
 
 def test_unsuitable_setting_for_an_actuator_is_rejected_with_reason():
     for changes, reason in (
-        ({"actuators": {"awas2": {}}}, "an actuator that vary names: svsa, qbmove"),
+        ({"actuators": {"awas2": {}}}, "an actuator that is varied: svsa, qbmove"),
         ({"actuators": {"qbmove": {"stiffness.stiffness_nm_per_rad": 60.0}}}, "to 15 N·m/rad"),
         (
             {"vary": ({**GIVEN["vary"][0], "values": ["qbmove", "none"]},)},

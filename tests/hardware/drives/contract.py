@@ -259,7 +259,7 @@ class DriveContract:
         sections = tomllib.loads(path.read_text(encoding="utf-8"))
         sections["motor2"] |= self.addresses[0]
         path.write_text(tomli_w.dumps(sections), encoding="utf-8")
-        with pytest.raises(ParameterError, match=r"motor2\..*another than motor1's"):
+        with pytest.raises(ParameterError, match=r"motor2\..*different from motor1's"):
             read_bench(path)
 
     def test_supervisor_stops_the_drive_if_the_loop_is_silent(self, rig: Rig, path: Path) -> None:

@@ -182,7 +182,7 @@ def submit_exercise(
         if progress.submitted_at is not None:
             raise StateError(f"Exercise {exercise!r} was submitted already.")
         if missing:
-            raise StateError(f"Not done yet: {', '.join(missing)}.")
+            raise StateError(f"Incomplete steps: {', '.join(missing)}.")
         student = person.name or wanted.student.strip() or _AT_HOME
         given = progress.build_submission(exercise, student)
         path = store.find_submission(exercise, person.id)

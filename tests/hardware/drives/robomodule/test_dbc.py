@@ -126,7 +126,7 @@ def test_file_without_a_can_encoder_has_no_encoder_message():
     ],
 )
 def test_two_frames_with_one_identifier_are_rejected(motor1, motor2, node):
-    with pytest.raises(ParameterError, match="another than"):
+    with pytest.raises(ParameterError, match="different from the id of"):
         build_dbc(motor1, motor2, node)
 
 
