@@ -43,7 +43,7 @@ People = tuple[httpx.Client, httpx.Client, httpx.Client]
 def test_holder_is_the_logged_in_user_whatever_a_header_states(people: People) -> None:
     ada, bob, _ = people
     refused = ada.put(SHARED + "/speed", json=SPEED)
-    assert refused.json()["detail"].startswith("No user is in control of session lab: ask")
+    assert refused.json()["detail"].startswith("No user is in control of session lab: request")
     state = ask(ada)
     assert (state["control"]["holder"], state["control"]["mine"]) == (
         read_person(ada)["name"],
