@@ -47,6 +47,9 @@ class KeyboardStudent:
     def predict(self, answer: float) -> None:
         number = f"{answer:.4g}"
         self.page.keyboard.press("Tab")
+        self.page.keyboard.type("x")
+        expect(self.page.get_by_text('"x" is not a number')).to_be_visible()
+        self.page.keyboard.press("Backspace")
         self.page.keyboard.type(number)
         self.page.keyboard.press("Enter")
         expect(self.page.get_by_text(f"You predicted {number}")).to_be_visible()

@@ -1,6 +1,7 @@
 /** Prediction of a number before the run that it is compared with. */
 import { useState } from "preact/hooks";
 import { text } from "../../core/text/en";
+import { ErrorLine } from "../../core/widgets/form";
 import { answer, type TaskProps } from "./lesson";
 import { Results } from "./results";
 
@@ -8,11 +9,15 @@ const words = text.lesson;
 
 const formatBound = (value: number) => String(Number(value.toPrecision(6)));
 
+const isBegun = (draft: string) => !/^\s*[-+]?\s*$/.test(draft);
+
 export function Prediction({ of, exercise, onDone }: TaskProps) {
   const [isChanging, setChanging] = useState(false);
   const [draft, setDraft] = useState("");
   const [isSent, setSent] = useState(false);
   const given = of.answer;
+  const typed = isBegun(draft) ? Number(draft.replace(",", ".")) : null;
+  const isWrong = typed !== null && !Number.isFinite(typed);
   const judge = exercise.parts.find(({ name }) => name === of.judged_by);
   const range = words.from(formatBound(of.low ?? 0), formatBound(of.high ?? 0), of.unit);
   if (given !== null && !isChanging) {
@@ -36,8 +41,9 @@ export function Prediction({ of, exercise, onDone }: TaskProps) {
       class="stack lesson-form"
       onSubmit={(event) => {
         event.preventDefault();
+        if (typed === null || isWrong) return;
         setSent(true);
-        void answer(of, Number(draft.replace(",", "."))).then(() => {
+        void answer(of, typed).then(() => {
           setSent(false);
           setChanging(false);
           requestAnimationFrame(onDone);
@@ -51,6 +57,7 @@ export function Prediction({ of, exercise, onDone }: TaskProps) {
             type="text"
             inputMode="decimal"
             autocomplete="off"
+            aria-invalid={isWrong}
             value={draft}
             onInput={({ currentTarget }) => setDraft(currentTarget.value)}
           />
@@ -58,10 +65,11 @@ export function Prediction({ of, exercise, onDone }: TaskProps) {
         </span>
         <small>{range}</small>
       </label>
+      <ErrorLine>{isWrong ? words.notANumber(draft.trim()) : ""}</ErrorLine>
       <button
         type="submit"
         class="button is-primary"
-        disabled={isSent || draft.trim() === "" || Number.isNaN(Number(draft.replace(",", ".")))}
+        disabled={isSent || typed === null || isWrong}
       >
         {words.keep}
       </button>
