@@ -49,6 +49,10 @@ class Change(Checked):
         if not self.list_given():
             names = ", ".join(name for name in type(self).model_fields if name not in _PLACE)
             raise ParameterError(Violation("change", {}, "", f"of {names}"))
+        of_arm = [name for name in self.list_given() if name in OF_ARM]
+        if self.joint is not None and of_arm:
+            bound = f"omitted with {of_arm[0]}, which acts on both joints"
+            raise ParameterError(Violation("joint", self.joint, "", bound))
         return self
 
     def list_given(self) -> dict[str, object]:

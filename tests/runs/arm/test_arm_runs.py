@@ -127,6 +127,11 @@ def test_joints_list_their_changes_of_the_law():
     assert found == [[("ndobc", 0)], [("ndobc", 0), ("fl", 20)], [("pd", 0)], [("pd", 0)]]
 
 
+def test_change_of_the_feedforward_of_one_joint_is_rejected():
+    with pytest.raises(svsa.ParameterError, match="feedforward, which acts on both joints"):
+        svsa.Change(at_s=0.02, joint=2, feedforward=True)
+
+
 def test_run_in_several_calls_equals_one_call_bit_for_bit():
     """With every effect on, two laws, and loads on joints and tip that begin between the pieces."""
     c = build_arm_experiment(
