@@ -42,7 +42,8 @@ function StopNotice({ title, words, isSimulation = false, children }: StopNotice
 function LatchedBench({ state, bench }: { state: SessionState; bench: BenchState }) {
   const isLost = isLoopLost(bench);
   const isClosed = isNeverOpened(bench);
-  const stopTitle = isQuickStop(state) ? text.stop.benchTitle : text.stop.faultTitle;
+  const isOfUser = isQuickStop(state);
+  const stopTitle = isOfUser ? text.stop.benchTitle : text.stop.faultTitle;
   const lostTitle = isClosed ? text.stop.closedTitle : text.stop.lostTitle;
   const lostSteps = isClosed ? text.stop.closedSteps : text.stop.lostSteps;
   return (
@@ -56,7 +57,8 @@ function LatchedBench({ state, bench }: { state: SessionState; bench: BenchState
           <strong>{isLost ? lostTitle : stopTitle}</strong> {state.fault?.message}{" "}
           {!isLost && isLive.value && text.stop.latched}
         </p>
-        {!isLost && state.fault !== null && <FaultAdvice fault={state.fault} />}
+        {/* The steps below say what to do after a quick stop. */}
+        {!isLost && !isOfUser && state.fault !== null && <FaultAdvice fault={state.fault} />}
         <ol class="bullets" aria-label={text.stop.goOn}>
           {(isLost ? lostSteps : text.stop.steps).map((step) => (
             <li key={step}>{step}</li>
