@@ -17,6 +17,7 @@ from svsa.actuators.parameters import (
 )
 from svsa.errors import ParameterError, Violation
 from svsa.inputs.nearest import suggest
+from svsa.inputs.registration import load_entry
 
 GROUP = "svsa.actuators"
 
@@ -37,21 +38,7 @@ def list_mechanism_names() -> tuple[str, ...]:
 @cache
 def _load(name: str) -> Mechanism | str:
     """Import an actuator once per process; return the error if it fails."""
-    entry = _find_entries()[name]
-    package = entry.dist.name if entry.dist else entry.module
-    try:
-        found = entry.load()
-    except Exception as error:
-        reported = f"{type(error).__name__}: {error}"
-        return f"the actuator {name} of the package {package} does not load: {reported}"
-    if not isinstance(found, Mechanism) or found.name != name:
-        contained = (
-            f"the actuator {found.name}"
-            if isinstance(found, Mechanism)
-            else f"an object of type {type(found).__name__}"
-        )
-        return f"the package {package} declares the actuator {name}, but contains {contained}"
-    return found
+    return load_entry(_find_entries()[name], Mechanism, "actuator")
 
 
 @cache

@@ -15,6 +15,7 @@ from svsa.control.gains import Gains
 from svsa.control.law import NAME, Law, LawError
 from svsa.control.parameters import LawParameters, UnreadParameters
 from svsa.errors import ParameterError, Violation
+from svsa.inputs.registration import load_entry
 
 GROUP = "svsa.laws"
 PAPERS_LAW = "ndobc"
@@ -90,21 +91,8 @@ def _load_law(name: str) -> Law | str:
     A failed import is cached too: a second attempt takes as long as the first, and the loop of a
     bench that reads a law's name has no time for it.
     """
-    entry = _find_entries()[name]
-    package = entry.dist.name if entry.dist else entry.module
-    try:
-        law = entry.load()
-    except Exception as error:
-        reported = f"{type(error).__name__}: {error}"
-        return f"The law {name} of the package {package} does not load: {reported}"
-    if not isinstance(law, Law) or law.name != name:
-        found = (
-            f"the law {law.name}"
-            if isinstance(law, Law)
-            else f"an object of type {type(law).__name__}"
-        )
-        return f"The package {package} declares the law {name}, but contains {found}."
-    return law
+    found = load_entry(_find_entries()[name], Law, "law")
+    return f"{found[0].upper()}{found[1:]}." if isinstance(found, str) else found
 
 
 def is_usable(name: str) -> bool:

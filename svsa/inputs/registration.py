@@ -1,6 +1,7 @@
-"""Registration by file: a file in a folder adds a kind, and no other code lists it."""
+"""Registration: a file in a folder, or an entry point of a package, adds a kind."""
 
 from importlib import import_module
+from importlib.metadata import EntryPoint
 from pkgutil import iter_modules
 from types import ModuleType
 from typing import TypeVar
@@ -26,6 +27,33 @@ def find_kinds(package: str, base: type[T]) -> tuple[type[T], ...]:
         for found in vars(module).values()
         if isinstance(found, type) and issubclass(found, base) and _is_kind(found, module)
     )
+
+
+def load_entry(entry: EntryPoint, base: type[T], noun: str) -> T | str:
+    """Import the object that an entry point declares.
+
+    Args:
+        entry: Its name is the `name` of the object.
+        base: Class of the object.
+        noun: What the object is, for the reason, such as "law".
+
+    Returns:
+        The object; the reason as text if its package does not load or contains something else.
+    """
+    package = entry.dist.name if entry.dist else entry.module
+    try:
+        found = entry.load()
+    except Exception as error:
+        reported = f"{type(error).__name__}: {error}"
+        return f"the {noun} {entry.name} of the package {package} does not load: {reported}"
+    if isinstance(found, base):
+        name = getattr(found, "name", "")
+        if name == entry.name:
+            return found
+        contained = f"the {noun} {name}"
+    else:
+        contained = f"an object of type {type(found).__name__}"
+    return f"the package {package} declares the {noun} {entry.name}, but contains {contained}"
 
 
 def _is_kind(found: type, module: ModuleType) -> bool:
