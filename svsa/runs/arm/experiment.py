@@ -145,7 +145,7 @@ def _read_tip_loads(given: Load | Sequence[Load]) -> tuple[Load, ...]:
 
 def _build_named(name: str, arm: ArmParameters | None) -> Configuration:
     if not isinstance(name, str) or name not in ARMS:
-        finding = f"there is no such arm; the arms are {', '.join(ARMS)}"
+        finding = f"there is no such arm as {name!r}; the arms are {', '.join(ARMS)}"
         raise ParameterError(Violation("experiment", name, "", "", finding=finding))
     named = ARMS[name]
     links = named.links if arm is None else arm
