@@ -105,17 +105,21 @@ print(result.fault is None, result.configuration.actuator.mechanism)
 """
 
 
-def test_package_adds_an_actuator(tmp_path):
-    target = install_own_actuator(tmp_path)
+def run_with_packages(folder, script):
+    """Run a script in a process that also finds the packages in a folder; return its lines."""
     done = subprocess.run(
-        [sys.executable, "-c", SCRIPT],
-        env=os.environ | {"PYTHONPATH": os.pathsep.join([str(target), str(ROOT)])},
+        [sys.executable, "-c", script],
+        env=os.environ | {"PYTHONPATH": os.pathsep.join([str(folder), str(ROOT)])},
         capture_output=True,
         text=True,
         timeout=600,
     )
     assert done.returncode == 0, done.stderr
-    names, found = done.stdout.split("\n")[:2]
+    return done.stdout.strip().split("\n")
+
+
+def test_package_adds_an_actuator(tmp_path):
+    names, found = run_with_packages(install_own_actuator(tmp_path), SCRIPT)
     assert set(names.split(",")) == {*NAMES, "cubic"}
     assert found == "True cubic"
 
@@ -139,15 +143,7 @@ def test_package_that_does_not_load_leaves_the_other_actuators_in_the_lab(tmp_pa
         "Metadata-Version: 2.1\nName: broken-actuator\nVersion: 1.0\n"
     )
     (information / "entry_points.txt").write_text("[svsa.actuators]\nbroken = broken:BROKEN\n")
-    done = subprocess.run(
-        [sys.executable, "-c", BROKEN_SCRIPT],
-        env=os.environ | {"PYTHONPATH": os.pathsep.join([str(tmp_path), str(ROOT)])},
-        capture_output=True,
-        text=True,
-        timeout=300,
-    )
-    assert done.returncode == 0, done.stderr
-    names, reason = done.stdout.strip().split("\n")
+    names, reason = run_with_packages(tmp_path, BROKEN_SCRIPT)
     assert names.split() == [*NAMES]
     assert reason == (
         "actuator: the actuator broken of the package broken-actuator does not load:"

@@ -1,4 +1,6 @@
-"""Translation of files from before a renaming: the only module with former names.
+"""Translation of files from before a renaming.
+
+Former names of a law's parameters are in the file of the law (`LawParameters.former_names`).
 
 A record, or the progress of a student, keeps the names of its version. The reader translates them
 once, so that all other code uses the current names only.
