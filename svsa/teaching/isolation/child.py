@@ -1,16 +1,18 @@
 """The law's process: an interpreter in empty namespaces, connected by two pipes.
 
-    python -I -S -B -u child.py LAW FILTER ANSWERS MEMORY_BYTES CPU_S OUTPUT_BYTES
+    python -I -S -B -u child.py LAW FILTER ANSWERS NAMES MEMORY_BYTES CPU_S OUTPUT_BYTES
 
 LAW: the law's file. FILTER: the compiled filter of system calls, or "-" for none. ANSWERS: number
-of the pipe for answers; requests come on standard input. The law is read only when every limit is
-set. Imports nothing of the lab except for `frames`, `plain_law` and the modules that a law may use.
+of the pipe for answers; requests come on standard input. NAMES: number of files and folders that
+the working folder may have, or 0 for any. The law is read only when every limit is set. Imports
+nothing of the lab except for `frames`, `plain_law` and the modules that a law may use.
 """
 
 import ctypes
 import math
 import os
 import resource
+import struct
 import sys
 import traceback
 from pathlib import Path
@@ -20,7 +22,10 @@ from typing import Any
 NICENESS = 10
 """The same as its grader's in a job: with a lower priority a busy machine would delay it."""
 _PR_SET_NO_NEW_PRIVS, _PR_SET_SECCOMP, _SECCOMP_MODE_FILTER = 38, 22, 2
+_PR_CAP_AMBIENT, _PR_CAP_AMBIENT_CLEAR_ALL, _CAPABILITIES_OF_64_BITS = 47, 4, 0x20080522
+_MS_NOSUID, _MS_NODEV, _MS_REMOUNT = 2, 4, 32
 _INSTRUCTION_BYTES = 8
+libc = ctypes.CDLL(None, use_errno=True)
 
 
 class _Program(ctypes.Structure):
@@ -42,19 +47,35 @@ def limit(memory_bytes: int, cpu_s: int, output_bytes: int) -> None:
         resource.setrlimit(kind, (bound, bound))
 
 
+def limit_names(names: int) -> None:
+    """Limit the number of files and folders in the working folder, then drop every capability."""
+    # The root of the folder is one of them. Other options of the file system stay as they are.
+    options = b"nr_inodes=%d" % (names + 1)
+    flags = _MS_REMOUNT | _MS_NOSUID | _MS_NODEV
+    call(libc.mount, b"tmpfs", bytes(Path.cwd()), b"tmpfs", flags, options)
+    call(libc.prctl, _PR_CAP_AMBIENT, _PR_CAP_AMBIENT_CLEAR_ALL, 0, 0, 0)
+    call(libc.capset, struct.pack("Ii", _CAPABILITIES_OF_64_BITS, 0), bytes(24))
+
+
+def call(function: Any, *arguments: Any) -> None:
+    """Call a function of the C library.
+
+    Raises:
+        OSError: If the call fails.
+    """
+    if function(*arguments) != 0:
+        code = ctypes.get_errno()
+        raise OSError(code, f"{function.__name__} failed: {os.strerror(code)}")
+
+
 def filter_calls(program: bytes) -> None:
     """Install a kernel filter that rejects every system call outside this program."""
-    libc = ctypes.CDLL(None, use_errno=True)
     code = ctypes.create_string_buffer(program, len(program))
     length = len(program) // _INSTRUCTION_BYTES
     packed = _Program(length, ctypes.cast(code, ctypes.c_void_p))
-    for call in (
-        # Without this flag the kernel accepts a filter from privileged processes only.
-        (_PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0),
-        (_PR_SET_SECCOMP, _SECCOMP_MODE_FILTER, ctypes.byref(packed), 0, 0),
-    ):
-        if libc.prctl(*call) != 0:
-            raise OSError(ctypes.get_errno(), "the filter of system calls was not taken")
+    # Without this flag the kernel accepts a filter from privileged processes only.
+    call(libc.prctl, _PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0)
+    call(libc.prctl, _PR_SET_SECCOMP, _SECCOMP_MODE_FILTER, ctypes.byref(packed), 0, 0)
 
 
 def offer_equations() -> None:
@@ -185,7 +206,7 @@ def serve(path: Path, answers: int) -> None:
         os._exit(1)
 
 
-def main(law: str, program: str, answers: str, *bounds: str) -> None:
+def main(law: str, program: str, answers: str, names: str, *bounds: str) -> None:
     """Apply the limits, then serve."""
     here = Path(__file__).parent
     sys.path[:0] = [str(here), str(here / "packages")]
@@ -198,6 +219,8 @@ def main(law: str, program: str, answers: str, *bounds: str) -> None:
     # Read before the limits and the filter apply; the file of the law is read afterwards.
     compiled = b"" if program == "-" else Path(program).read_bytes()
     limit(*map(int, bounds))
+    if int(names):
+        limit_names(int(names))
     if compiled:
         filter_calls(compiled)
     serve(Path(law), int(answers))

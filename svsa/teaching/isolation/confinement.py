@@ -2,8 +2,8 @@
 
 The law has its own user, process, mount, network, IPC, host name and control group namespaces.
 Mounted read-only are the interpreter with its library, the system's shared libraries, numpy, the
-model's equations and the law. It can write to one empty folder of a megabyte. There is no /proc, no
-/dev, and no environment.
+model's equations and the law. It can write to one empty folder of a megabyte and `FOLDER_NAMES`
+names. There is no /proc, no /dev, and no environment.
 """
 
 import shutil
@@ -21,6 +21,9 @@ from svsa.teaching.isolation.refusal import NotIsolatedError
 from svsa.teaching.isolation.system_calls import compile_filter
 
 FOLDER_BYTES = 1 << 20
+FOLDER_NAMES = 100
+"""Files and folders that a law may have in its folder. Each takes memory of the kernel, which no
+limit of a process includes."""
 _HERE = Path(__file__).parent
 _LIBRARY = _HERE.parents[1]
 _CHILD = (_HERE / "child.py", _HERE / "frames.py", _LIBRARY / "control" / "plain_law.py")
@@ -97,14 +100,17 @@ def confine(source: bytes, answers: int, bounds: Bounds) -> Iterator[Command]:
         for path in _list_packages():
             mounts += ["--ro-bind", str(path), f"/lab/packages/{path.name}"]
         words = (
-            bwrap, "--unshare-all", "--unshare-user", "--disable-userns", "--die-with-parent",
+            bwrap, "--unshare-all", "--unshare-user", "--die-with-parent",
             "--new-session", "--clearenv", "--hostname", "lab", "--cap-drop", "ALL",
+            # bwrap cannot limit the names in a folder. `child` does it, drops this capability, and
+            # reads the law only then; the filter forbids new user namespaces.
+            "--cap-add", "CAP_SYS_ADMIN",
             *_mount_interpreter(), *mounts,
             "--size", str(FOLDER_BYTES), "--tmpfs", "/work", "--chdir", "/work",
             "--remount-ro", "/",
             # The filter forbids threads, and OpenBLAS starts some when numpy is imported.
             "--setenv", "OPENBLAS_NUM_THREADS", "1", "--setenv", "PYTHONHASHSEED", "0",
-            *_start_child("/lab", "/lab/filter", answers, bounds),
+            *_start_child("/lab", "/lab/filter", answers, bounds, FOLDER_NAMES),
         )  # fmt: skip
         yield Command(words)
 
@@ -124,11 +130,11 @@ def leave_open(source: bytes, answers: int, bounds: Bounds) -> Iterator[Command]
         for path in _list_packages():
             (here / "packages" / path.name).symlink_to(path)
         (here / "work").mkdir()
-        yield Command(_start_child(folder, "-", answers, bounds), str(here / "work"))
+        yield Command(_start_child(folder, "-", answers, bounds, 0), str(here / "work"))
 
 
-def _start_child(folder: str, program: str, answers: int, bounds: Bounds) -> list[str]:
-    numbers = (answers, bounds.memory_bytes, bounds.cpu_s, bounds.output_bytes)
+def _start_child(folder: str, program: str, answers: int, bounds: Bounds, names: int) -> list[str]:
+    numbers = (answers, names, bounds.memory_bytes, bounds.cpu_s, bounds.output_bytes)
     # -u: the output of a law is kept even if it is killed.
     interpreter = [str(_find_interpreter()), "-I", "-S", "-B", "-u", f"{folder}/child.py"]
     return [*interpreter, f"{folder}/law.py", program, *map(str, numbers)]
