@@ -8,6 +8,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from fastapi import FastAPI
+from starlette.middleware.gzip import DEFAULT_EXCLUDED_CONTENT_TYPES, GZipMiddleware
 
 import svsa
 from svsa.errors import ParameterError, Violation
@@ -58,6 +59,8 @@ if TYPE_CHECKING:
 
 _log = logging.getLogger("svsa")
 MAX_GRADINGS = 2
+SMALLEST_COMPRESSED_BYTES = 1400
+_COMPACT_TYPES = ("application/octet-stream", "application/vnd.apache.parquet")
 _DESCRIPTION = (
     "Position and stiffness control of a serial variable stiffness actuator. SI units; every"
     " field ends in its unit. A rejected request changes nothing; the answer has name, value, unit"
@@ -128,6 +131,15 @@ def build_app(
     if config.classroom:
         app.state.audit = AuditLog(find_data_folder())
         app.add_middleware(Auditor, log=app.state.audit, permissions=app.state.permissions)
+    # Outermost, so that stored outcomes are plain. In a thread from 16 kB on, which would delay the
+    # sessions by a millisecond.
+    app.add_middleware(
+        GZipMiddleware,
+        minimum_size=SMALLEST_COMPRESSED_BYTES,
+        compresslevel=5,
+        thread_minimum_size=16 * 1024,
+        exclude_content_types=(*DEFAULT_EXCLUDED_CONTENT_TYPES, *_COMPACT_TYPES),
+    )
     install_error_handlers(app)
     return app
 

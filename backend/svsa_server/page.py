@@ -4,12 +4,12 @@ from pathlib import Path
 from urllib.parse import quote
 
 from starlette.requests import Request
-from starlette.responses import FileResponse, PlainTextResponse, RedirectResponse, Response
+from starlette.responses import PlainTextResponse, RedirectResponse, Response
 from starlette.routing import BaseRoute, Mount, Route
-from starlette.staticfiles import StaticFiles
 from starlette.types import Scope
 
 from svsa_server.access.permissions import OBSERVER, PUBLIC, allow
+from svsa_server.compressed_files import CompressedFiles
 
 PAGE = Path(__file__).parent / "page"
 GUIDE = Path(__file__).parent / "guide"
@@ -34,11 +34,12 @@ _GUIDE_HEADERS = _HEADERS | {
 }
 
 
-class _Guide(StaticFiles):
-    """The built documentation site, which may be missing."""
+_KEPT = {"Cache-Control": "public, max-age=31536000, immutable"}
+"""A file with another content has another name."""
 
-    async def check_config(self) -> None:
-        """Accept a folder that does not exist: each request answers what to do."""
+
+class _Guide(CompressedFiles):
+    """The built documentation site, which may be missing."""
 
     async def get_response(self, path: str, scope: Scope) -> Response:
         if not (GUIDE / "index.html").is_file():
@@ -54,17 +55,17 @@ def build_page_routes() -> list[BaseRoute]:
         Route("/", _serve_index),
         Route("/icon.svg", _serve_icon),
         Route("/docs", _serve_docs),
-        Mount("/docs/guide", allow(PUBLIC)(_Guide(directory=GUIDE, html=True, check_dir=False))),
+        Mount("/docs/guide", allow(PUBLIC)(_Guide({}, directory=GUIDE, html=True))),
         *(Route(f"/{place}", _redirect_to_page) for place in PLACES),
         Route("/learn/{exercise}", _lead_to_exercise),
         Route("/learn/{exercise}/{step}", _lead_to_exercise),
-        Mount("/assets", allow(PUBLIC)(StaticFiles(directory=PAGE / "assets", check_dir=False))),
+        Mount("/assets", allow(PUBLIC)(CompressedFiles(_KEPT, directory=PAGE / "assets"))),
     ]
 
 
 @allow(PUBLIC)
-async def _serve_index(_: Request) -> Response:
-    return _serve_page("index.html")
+async def _serve_index(request: Request) -> Response:
+    return await _serve_page(request, "index.html")
 
 
 @allow(PUBLIC)
@@ -82,18 +83,18 @@ async def _lead_to_exercise(request: Request) -> Response:
 
 
 @allow(OBSERVER)
-async def _serve_docs(_: Request) -> Response:
-    return _serve_page("docs.html")
+async def _serve_docs(request: Request) -> Response:
+    return await _serve_page(request, "docs.html")
 
 
-def _serve_page(name: str) -> Response:
+async def _serve_page(request: Request, name: str) -> Response:
     if not (PAGE / name).is_file():
         return PlainTextResponse(
             "The page was not built: run `make page`. REST: /openapi.json", 503
         )
-    return FileResponse(PAGE / name, headers=_HEADERS)
+    return await CompressedFiles(_HEADERS, directory=PAGE).get_response(name, request.scope)
 
 
 @allow(PUBLIC)
-async def _serve_icon(_: Request) -> Response:
-    return FileResponse(PAGE / "icon.svg", headers=_HEADERS)
+async def _serve_icon(request: Request) -> Response:
+    return await _serve_page(request, "icon.svg")

@@ -34,6 +34,7 @@ _SOURCES = (
     "docs.html",
     "replay.html",
     "vite.config.ts",
+    "compress.mjs",
     "tsconfig.json",
     "package.json",
 )
@@ -122,6 +123,7 @@ def build_guide(force: bool = False) -> None:
             raise PageBuildError(f"Sphinx ended with {code}.")
     shutil.rmtree(GUIDE, ignore_errors=True)
     shutil.copytree(built / "html", GUIDE, ignore=shutil.ignore_patterns("*.map", ".buildinfo"))
+    _run_npm("run", "compress", "--silent", "--", str(GUIDE))
     _print(f"the guide is in {GUIDE.relative_to(ROOT)}")
 
 

@@ -91,5 +91,5 @@ def test_replay_is_a_page_for_inline_display(lab: Lab) -> None:
     assert answer.headers["content-type"].startswith("text/html")
     assert "content-disposition" not in answer.headers
     assert answer.headers["cache-control"].startswith("private")
-    assert answer.headers["vary"] == "Cookie, Authorization"
+    assert answer.headers["vary"] == "Cookie, Authorization, Accept-Encoding"
     assert lab.client.get("/api/v1/runs/no-such-run/replay").status_code == 404
