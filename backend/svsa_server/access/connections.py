@@ -5,10 +5,21 @@ keeps the connection open. uvicorn closes such a WebSocket only once all data we
 """
 
 import asyncio
+import math
+import struct
+from typing import Any
 
 import h11
 from uvicorn.protocols.http.h11_impl import H11Protocol
 from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
+from websockets.frames import Frame
+
+PING_EVERY_BYTES = 4096
+FIRST_WINDOW_BYTES = 16 * 1024
+MIN_WINDOW_BYTES = 8 * 1024
+MAX_WINDOW_BYTES = 1024 * 1024
+QUEUED_S = 0.5
+"""Time for which data may wait on their way, beyond the shortest delay of a pong, s."""
 
 
 class BoundHttp(H11Protocol):
@@ -47,12 +58,91 @@ class BoundHttp(H11Protocol):
 
 
 class BoundWebSocket(WebSocketsSansIOProtocol):
-    """A WebSocket that ends if a ping is not answered within `ws_ping_timeout` s.
+    """A WebSocket that limits the data on their way, and ends if its client takes none.
 
-    Unsent data are discarded, because a client that does not read would never receive them.
+    Data in the buffers of the kernel, of a proxy and of a slow link cannot be overtaken by newer
+    samples. Therefore a ping follows every `PING_EVERY_BYTES`; the pong reports that the client
+    has everything before it. `send` waits while more than the window is on the way. The window
+    grows until the data wait for `QUEUED_S` on their way.
+
+    A client that neither answers a ping nor takes data within `ws_ping_timeout` s is disconnected,
+    and unsent data are discarded. A large message on a slow link delays the pong, but not the data.
     """
 
+    def __init__(self, *arguments: Any, **options: Any) -> None:
+        super().__init__(*arguments, **options)
+        self._sent = self._pinged = self._arrived = self._shrunk_at = 0
+        """Bytes of messages: sent, up to the last ping and pong, up to the last smaller window."""
+        self._window = FIRST_WINDOW_BYTES
+        self._pings: dict[bytes, tuple[int, float]] = {}
+        self._quickest_s = math.inf
+        self._room = asyncio.Event()
+        self._taken = 0
+
+    async def send(self, message: Any) -> None:
+        """Send a message when the window has room for it."""
+        if message["type"] == "websocket.send":
+            while self._sent - self._arrived >= self._window and not self.disconnected:
+                self._room.clear()
+                await self._room.wait()
+        await super().send(message)
+        if message["type"] == "websocket.send":
+            self._sent += len(message.get("bytes") or message.get("text") or "")
+            self._ping_if_due()
+
+    def _ping_if_due(self) -> None:
+        if self._sent - self._pinged < PING_EVERY_BYTES or self.transport.is_closing():
+            return
+        # Pings of the keepalive have four bytes.
+        payload = struct.pack("!Q", self._sent)
+        self._pings[payload] = self._sent, self.loop.time()
+        self._pinged = self._sent
+        self.conn.send_ping(payload)
+        self.transport.write(b"".join(self.conn.data_to_send()))
+
+    def handle_pong(self, event: Frame) -> None:
+        """Note what has arrived; a pong may answer several pings."""
+        payload = bytes(event.data)
+        if payload not in self._pings:
+            super().handle_pong(event)
+            return
+        sent, sent_s = self._pings[payload]
+        self._pings = {ping: value for ping, value in self._pings.items() if value[0] > sent}
+        self._adapt_window(sent, self.loop.time() - sent_s)
+        self._arrived = sent
+        self._room.set()
+
+    def _adapt_window(self, sent: int, delay_s: float) -> None:
+        self._quickest_s = min(self._quickest_s, delay_s)
+        if delay_s <= self._quickest_s + QUEUED_S:
+            is_limiting = self._sent - self._arrived >= self._window // 2
+            grown = self._window + (sent - self._arrived if is_limiting else 0)
+            self._window = min(grown, MAX_WINDOW_BYTES)
+        elif sent > self._shrunk_at:
+            self._window, self._shrunk_at = max(self._window // 2, MIN_WINDOW_BYTES), self._sent
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        """Release a message that waits."""
+        super().connection_lost(exc)
+        self._room.set()
+
+    def send_keepalive_ping(self) -> None:
+        """Ping the client, and note what it has taken by now."""
+        self._taken = self._count_taken()
+        super().send_keepalive_ping()
+
     def keepalive_timeout(self) -> None:
-        """Disconnect a client that does not answer a ping."""
+        """Disconnect a client that neither answers nor takes data."""
+        taken = self._count_taken()
+        if taken > self._taken and not self.transport.is_closing():
+            self._taken = taken
+            self.pong_timer = self.loop.call_later(
+                self.config.ws_ping_timeout or 0.0, self.keepalive_timeout
+            )
+            return
         super().keepalive_timeout()
         self.transport.abort()
+
+    def _count_taken(self) -> int:
+        """Bytes that the kernel or the client has taken."""
+        return self._arrived + self._sent - self.transport.get_write_buffer_size()

@@ -20,13 +20,18 @@ from svsa_server.sessions.excitation import Excitation, check_excitable
 
 
 class Round:
-    """A wake-up of the streams: all of them send right after the session was woken."""
+    """A wake-up of the streams: all of them send right after the session was woken.
+
+    `number`: number of wake-ups.
+    """
 
     def __init__(self) -> None:
         self._begun = asyncio.Event()
+        self.number = 0
 
     def begin(self) -> None:
         """Wake every waiting stream."""
+        self.number += 1
         # `set` wakes all waiting tasks; after `clear` the next ones wait for the next round.
         self._begun.set()
         self._begun.clear()

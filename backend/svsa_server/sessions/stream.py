@@ -27,7 +27,7 @@ from svsa_server.schemas.lab.stream import (
 )
 from svsa_server.sessions.broadcast import Reported, is_fresh, write_broadcast, write_progress
 from svsa_server.sessions.cursor import SampleCursor
-from svsa_server.sessions.hosted import HostedSession
+from svsa_server.sessions.hosted import HostedSession, Round
 from svsa_server.sessions.state import build_state
 
 PROGRESS_PERIOD_S = 1.0
@@ -36,10 +36,15 @@ FRESH_PROGRESS_PERIOD_S = 0.2
 second.
 """
 SLOW_AFTER_S = 0.5
+PAST_BYTES = 4 * 1024
+"""Size of a part of the past on a slow link; it doubles while parts are taken at once."""
+MAX_PAST_BYTES = 64 * 1024
+TAKEN_S = 0.005
+"""Longest time in which a part is taken at once, s."""
 
 
 def read_stream_request(query: dict[str, str]) -> tuple[StreamRequest, tuple[str, ...]]:
-    """Read rate_hz, history_s, lanes and channels of an address.
+    """Read rate_hz, history_s, live_first, lanes and channels of an address.
 
     `lanes` is "all", or numbers from 1 with commas; lane 1 by default.
 
@@ -59,6 +64,8 @@ def read_stream_request(query: dict[str, str]) -> tuple[StreamRequest, tuple[str
         try:
             if name == "lanes":
                 numbers[name] = None if text == "all" else tuple(map(int, text.split(",")))
+            elif name == "live_first":
+                numbers[name] = {"true": True, "false": False}.get(text, text)
             else:
                 numbers[name] = float(text)
         except ValueError:
@@ -108,9 +115,9 @@ async def _send(
         version, sent_in = hosted.version, _count_periods(hosted, time.monotonic())
         reported = Reported.all_of(hosted)
         await websocket.send_text(_greet(hosted, cursor, channels))
-        slow = False
+        slow, taken_at = False, time.monotonic()
         while not hosted.session.closed:
-            now = time.monotonic()
+            now, number = time.monotonic(), hosted.round.number
             broadcast, period = None, _count_periods(hosted, now)
             if hosted.version != version:
                 version, sent_in, broadcast = (
@@ -121,17 +128,34 @@ async def _send(
             elif period != sent_in:
                 sent_in, broadcast = period, write_progress(hosted, reported, period)
             # Read before the first `await`, so that state and samples are of the same moment.
-            batch = cursor.take_batch(slow)
+            waited_s, taken_at = now - taken_at, now
+            batch = cursor.take_batch(slow, waited_s)
             if broadcast is not None:
                 reported = broadcast.reported
                 await websocket.send_text(broadcast.text)
-            if batch is not None:
+            while batch is not None:
                 await websocket.send_bytes(batch)
-            # Sending waits only while the buffers of socket and server are full: the client is too
-            # slow, and gets the newest samples with a gap before them.
+                # Sending waits while the window of the connection or its buffers are full: the
+                # client is too slow, and gets the newest samples with a gap before them.
+                slow = time.monotonic() - now > SLOW_AFTER_S
+                is_current = hosted.version == version and not slow
+                batch = cursor.take_batch(False, waited_s) if is_current else None
             slow = time.monotonic() - now > SLOW_AFTER_S
+            await _send_past(websocket, hosted.round, number, cursor)
             await hosted.round.wait()
         await websocket.close(1000, "The session has ended.")
+
+
+async def _send_past(
+    websocket: WebSocket, streams: Round, number: int, cursor: SampleCursor
+) -> None:
+    """Send parts of the past until the next round, in which newer samples are sent before it."""
+    most_bytes = PAST_BYTES
+    while streams.number == number and (part := cursor.take_past(most_bytes)) is not None:
+        sent_at = time.monotonic()
+        await websocket.send_bytes(part)
+        is_quick = time.monotonic() - sent_at < TAKEN_S
+        most_bytes = min(2 * most_bytes, MAX_PAST_BYTES) if is_quick else PAST_BYTES
 
 
 def _count_periods(hosted: HostedSession, now: float) -> tuple[float, int]:

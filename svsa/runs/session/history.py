@@ -32,13 +32,22 @@ class History:
         self.end_tick += ticks
 
     def read(
-        self, first_tick: int, stride: int, columns: list[int], lanes: list[int]
+        self,
+        first_tick: int,
+        stride: int,
+        columns: list[int],
+        lanes: list[int],
+        end_tick: int | None = None,
     ) -> np.ndarray:
-        """Copy every stride-th sample from first_tick on, (count, lanes, columns).
+        """Copy every stride-th sample from first_tick up to before end_tick or the end.
 
         first_tick must not be older than the history holds.
+
+        Returns:
+            (count, lanes, columns).
         """
-        ticks = np.arange(first_tick, self.end_tick, stride) % self._capacity
+        end_tick = self.end_tick if end_tick is None else end_tick
+        ticks = np.arange(first_tick, end_tick, stride) % self._capacity
         return self._rows[np.array(lanes)[None, :, None], ticks[:, None, None], columns]
 
     def read_newest(self, lane: int = 0) -> np.ndarray | None:

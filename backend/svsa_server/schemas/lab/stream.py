@@ -21,6 +21,9 @@ from svsa.runs.session.frame import (
 )
 from svsa_server.schemas.lab.session import SessionProgress, SessionState
 
+BATCH_BYTES = 12 * 1024
+"""Maximum size of a batch with more than one sample, about 0.6 s at 20 kB/s."""
+
 
 class StreamRequest(Checked):
     """The contents of a stream."""
@@ -31,6 +34,9 @@ class StreamRequest(Checked):
     )
     history_s: Number = quantity(
         "s", "Length of the history to send first", ge=0, le=20, default=0.0
+    )
+    live_first: bool = quantity(
+        "", "Send the newest samples first, then the history in parts, newest first", default=False
     )
 
 
@@ -143,6 +149,16 @@ def describe_stream(batch_period_s: float) -> str:
             " samples, with gaps between the batches: compare `first_tick` with the end of the"
             " previous batch.",
             "",
+            f"A batch with more than one sample has at most {BATCH_BYTES // 1024} kB, so a history"
+            " comes in several batches. With `live_first=true` the newest samples come first; then"
+            " the history, its newest batch first, between the batches of new samples. A batch that"
+            " begins before the end of an earlier one belongs to the history. A client on a slow"
+            " link gets sparser samples, of a larger `stride`. A restart of the run ends the"
+            " history.",
+            "",
+            "The server sends pings between the batches and waits for the pongs, so that new"
+            " samples do not wait behind the history in the buffers of a slow link.",
+            "",
             f"The default of `channels` is `{','.join(PLOTTED)}`.",
             "",
             "Any message from the client holds the dead-man's switch of a bench for 0.1 s, if the"
@@ -160,7 +176,7 @@ def list_stream_parameters() -> list[dict[str, Any]]:
         "client": "Client id, as in the header SVSA-Client, which browsers cannot send with a "
         "WebSocket",
     }
-    schemas = {name: bounds[name] for name in ("rate_hz", "history_s")}
+    schemas = {name: bounds[name] for name in ("rate_hz", "history_s", "live_first")}
     schemas |= {name: {"type": "string", "description": text} for name, text in words.items()}
     return [
         {
