@@ -12,7 +12,14 @@ import { isLabShown, place } from "../runs/list/place";
 import { CornerMark } from "./marks";
 
 const STATUS_SIGNS = { running: "▶", paused: "❚❚", fault: "▲" } as const;
-const PHASE_SIGNS = { live: "●", connecting: "◌", lost: "○", locked: "○", ended: "○" } as const;
+const PHASE_SIGNS = {
+  live: "●",
+  slow: "◌",
+  connecting: "◌",
+  lost: "○",
+  locked: "○",
+  ended: "○",
+} as const;
 
 const wordOf = (bench: BenchState): string =>
   isStarting(bench) ? text.bench.starting : text.bench.status[bench.status];
@@ -55,7 +62,7 @@ function SimulatedLoop({ state }: { state: SessionState }) {
   const { status, rate_hz: rateHz, real_time_factor: factor, accumulated_delay_s: delay } = state;
   const moving =
     status === "running" ? text.status.realTime(formatNumber(factor, 3, 2)) : text.status.standing;
-  const pace = isLive.value ? moving : text.status.notKnown;
+  const pace = phase.value === "live" ? moving : text.status.notKnown;
   return (
     <Cell name={text.status.loop} class="is-loop" hint={text.status.rateHint(formatLapse(delay))}>
       {text.status.rate(rateHz)} <small>{pace}</small>
@@ -114,7 +121,7 @@ function RecordingCell({ state: { recording, rate_hz: rateHz } }: { state: Sessi
 function Connection() {
   const missed = missedSamples.value;
   return (
-    <Cell name={text.status.connection} class={isLive.value ? "good" : "bad"}>
+    <Cell name={text.status.connection} class={phase.value === "live" ? "good" : "bad"}>
       <span role="status">
         <span aria-hidden="true">{PHASE_SIGNS[phase.value]}</span> {text.connection[phase.value]}
       </span>

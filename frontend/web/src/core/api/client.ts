@@ -144,7 +144,6 @@ export const putGains = (gains: GainsRequest) => call("put", "/gains", gains);
 /** Parameters by law name; those that are left out keep their values. */
 export const putParameters = (parameters: Body<"put", "/parameters">[0]) =>
   call("put", "/parameters", parameters);
-export const readFaults = () => readKinds().then(({ faults }) => faults);
 export const readLaws = () => request("get", "laws") as Promise<LawRow[]>;
 export const putObserver = (link: number, motor1: number, motor2: number) =>
   call("put", "/observer", { bandwidth_rad_per_s: [link, motor1, motor2] });
@@ -204,6 +203,7 @@ export function streamAddress(rateHz: number, historyS: number, channels: readon
   address.protocol = address.protocol.replace("http", "ws");
   address.searchParams.set("rate_hz", String(rateHz));
   address.searchParams.set("history_s", String(historyS));
+  address.searchParams.set("live_first", "true");
   address.searchParams.set("lanes", "all");
   address.searchParams.set("channels", channels.join(","));
   address.searchParams.set("client", client);

@@ -52,6 +52,7 @@ export const DEFAULT_TIMEOUT_MS = 6000;
  */
 export const WORK_TIMEOUT_MS = 300_000;
 
+/** timeoutMs: longest time without a received byte. */
 export async function request(
   method: Method,
   path: string,
@@ -66,22 +67,49 @@ export async function request(
   const sentMs = performance.now();
   let response: Response;
   let answer: unknown;
+  const silence = new AbortController();
+  let heardMs = sentMs;
+  const listen = (waitMs: number) =>
+    AbortSignal.timeout(waitMs).addEventListener("abort", ({ target }) => {
+      const leftMs = Math.ceil(heardMs + timeoutMs - performance.now());
+      if (leftMs > 0) listen(leftMs);
+      else silence.abort((target as AbortSignal).reason);
+    });
+  listen(timeoutMs);
   try {
     response = await fetch(new URL(path, API), {
       method: method.toUpperCase(),
       cache: "no-store",
       headers,
       ...(body !== undefined && { body: JSON.stringify(body) }),
-      signal: AbortSignal.timeout(timeoutMs),
+      signal: silence.signal,
     });
-    answer = parse(await response.text());
+    answer = parse(
+      await readText(response, () => {
+        heardMs = performance.now();
+      }),
+    );
   } catch (cause) {
     const call = logCall(method, path, body, null);
     throw new UnansweredError(cause, requestId, sentMs, call);
+  } finally {
+    heardMs = Number.NEGATIVE_INFINITY;
   }
   logCall(method, path, body, response.status, answer);
   if (response.ok) return answer;
   throw buildRefusal(response, answer);
+}
+
+/** Read an answer part by part: on a slow link a long one takes longer than the time limit. */
+async function readText(response: Response, onPart: () => void): Promise<string> {
+  if (!response.body) return response.text();
+  const reader = response.body.pipeThrough(new TextDecoderStream()).getReader();
+  let text = "";
+  for (let part = await reader.read(); !part.done; part = await reader.read()) {
+    onPart();
+    text += part.value;
+  }
+  return text;
 }
 
 /** Reason why the server rejected a request. */

@@ -31,7 +31,6 @@ export type ParameterRow = Schemas["ParameterState"];
 export type Claim = Schemas["ClaimState"];
 export type ClaimNumbers = Claim["numbers"][number];
 /** A row of the table of faults. */
-export type FaultKind = Schemas["FaultKindState"];
 /** Name of a law. */
 export type Law = Configuration["law"];
 export type LawRow = Omit<Schemas["LawState"], "parameters"> & { parameters: LawParameter[] };

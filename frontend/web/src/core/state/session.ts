@@ -53,7 +53,10 @@ type TextMessage = Hello | { type: "state"; since_tick: number; state: Progress 
 export const session = signal<SessionState | null>(null);
 export const phase = signal<Phase>("connecting");
 export const missedSamples = signal(0);
-/** Number of connections: used as key by parts that must restart after a lost connection. */
+/**
+ * Number of connections whose first samples have arrived: used as key by parts that must restart
+ * after a lost connection.
+ */
 export const connectionCount = signal(0);
 /**
  * Set if a new session has the name of the one shown before, until the user dismisses the message.
@@ -67,12 +70,16 @@ export function incrementReceived(): void {
   receivedCount.value = receivedCount.peek() + 1;
 }
 
-export const isLive = computed(() => phase.value === "live");
+export const isLive = computed(() => phase.value === "live" || phase.value === "slow");
 export const samples: { ring: SampleRing } = { ring: new SampleRing(1, []) };
 
 let periodS = 0.001;
 let decoder: BatchDecoder | null = null;
 let currentRun = -1;
+/** End of the newest samples of this connection and run; a batch before it belongs to the past. */
+let endTick = 0;
+/** Whether a connection has begun, and whether its first samples have not arrived yet. */
+const beginning = { isNew: false, awaitsSamples: false };
 
 /** The channels that the page requests, and whether the answer extends the stored samples. */
 const selection: { channels: readonly string[]; extendsSamples: boolean } = {
@@ -81,7 +88,7 @@ const selection: { channels: readonly string[]; extendsSamples: boolean } = {
 };
 const SELECTION_MS = 250;
 let selectionTimer: ReturnType<typeof setTimeout> | undefined;
-/** Incremented when the past of newly selected channels has arrived. */
+/** Incremented when a part of the past of newly selected channels has arrived. */
 export const selectionCount = signal(0);
 
 /** Number of commands of the run, the last part of a revision; progress has no revision. */
@@ -106,6 +113,7 @@ export function acceptState(state: Progress, sinceTick = 0): void {
 /** A restarted run has no samples yet: stored ones belong to the previous run. */
 function beginRun(number: number): void {
   currentRun = number;
+  endTick = 0;
   samples.ring.clear();
   incrementReceived();
 }
@@ -119,6 +127,7 @@ function applyState(state: SessionState): void {
 
 function acceptText(message: string): void {
   const content = JSON.parse(message) as TextMessage;
+  beginning.awaitsSamples = content.type === "hello" && content.state.tick > 0;
   if (content.type === "state") {
     acceptState(content.state, content.since_tick);
     return;
@@ -133,6 +142,7 @@ function acceptText(message: string): void {
   periodS = content.period_s;
   decoder = new BatchDecoder(content);
   currentRun = content.state.run_number;
+  endTick = 0;
   samples.ring = extendsSamples
     ? samples.ring.withChannels(names)
     : new SampleRing(CAPACITY, names);
@@ -141,20 +151,47 @@ function acceptText(message: string): void {
   if (extendsSamples) return;
   selection.extendsSamples = false;
   missedSamples.value = 0;
-  connectionCount.value++;
+  beginning.isNew = true;
+}
+
+const PAST_NOTICE_MS = 300;
+let isPastNoticed = false;
+
+function noticePast(): void {
+  isPastNoticed = false;
+  selectionCount.value++;
 }
 
 function acceptBinary(message: ArrayBuffer): void {
   const batch = decoder?.decode(message);
+  beginning.awaitsSamples = false;
   if (batch === undefined || batch.run < currentRun) return;
   if (batch.run > currentRun) beginRun(batch.run);
-  samples.ring.append(batch, periodS);
+  if (batch.firstTick < endTick) {
+    samples.ring.insert(batch, periodS);
+    if (!isPastNoticed) setTimeout(noticePast, PAST_NOTICE_MS);
+    isPastNoticed = true;
+  } else {
+    samples.ring.append(batch, periodS);
+    endTick = batch.firstTick + batch.count * batch.stride;
+  }
   if (batch.missed > 0) missedSamples.value += batch.missed;
   incrementReceived();
   if (selection.extendsSamples) {
     selection.extendsSamples = false;
     selectionCount.value++;
   }
+}
+
+function changePhase(next: Phase): void {
+  if (next === "lost") selection.extendsSamples = false;
+  if (next === "live") {
+    // The greeting alone does not show that samples arrive.
+    if (beginning.awaitsSamples) return;
+    if (beginning.isNew) connectionCount.value++;
+    beginning.isNew = false;
+  }
+  phase.value = next;
 }
 
 async function probe(): Promise<ProbeResult> {
@@ -171,10 +208,7 @@ const connection = new StreamConnection(
   () => streamAddress(RATE_HZ, HISTORY_S, selection.channels),
   probe,
   {
-    onPhase: (next) => {
-      phase.value = next;
-      if (next === "lost") selection.extendsSamples = false;
-    },
+    onPhase: changePhase,
     onText: acceptText,
     onBinary: acceptBinary,
   },
@@ -185,13 +219,27 @@ export const sendSwitchHeld = (): void => connection.send("held");
 
 export const openStream = (): void => connection.open();
 
+const MAX_WAIT_MS = 10_000;
+
+/**
+ * Resolves when samples have arrived, or it is known that none will; after 10 s in any case. What
+ * the first view can do without is loaded then, because it would delay the samples on a slow link.
+ */
+export const whenReceiving = (): Promise<void> =>
+  new Promise((resolve) => {
+    setTimeout(resolve, MAX_WAIT_MS);
+    phase.subscribe((now) => {
+      if (now !== "connecting") resolve();
+    });
+  });
+
 /** Request these channels; their stored samples stay, and the last 20 s of new ones arrive. */
 export function selectChannels(channels: readonly string[]): void {
   selection.channels = channels;
   clearTimeout(selectionTimer);
   const isSame = (names: readonly string[]) => names.join() === channels.join();
   selectionTimer = setTimeout(() => {
-    if (phase.peek() !== "live" || isSame(samples.ring.channels)) return;
+    if (!isLive.peek() || isSame(samples.ring.channels)) return;
     selection.extendsSamples = true;
     connection.open();
   }, SELECTION_MS);

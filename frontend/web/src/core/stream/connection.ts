@@ -1,9 +1,13 @@
-/** A WebSocket that detects silence and reconnects automatically. */
+/**
+ * A WebSocket that detects silence and reconnects automatically. A browser reports complete messages
+ * only: the server sends small ones, so that the next one is soon complete on a slow link, too.
+ */
 
 /** Result of an ordinary request after the stream was lost. */
 /** ended: the server answers, but the streamed session no longer exists. */
 export type ProbeResult = "up" | "down" | "locked" | "ended";
-export type Phase = "connecting" | "live" | "lost" | "locked" | "ended";
+/** slow: connected, but nothing has arrived for a while, or no sample yet. */
+export type Phase = "connecting" | "live" | "slow" | "lost" | "locked" | "ended";
 
 interface StreamHandlers {
   onPhase(phase: Phase): void;
@@ -11,6 +15,7 @@ interface StreamHandlers {
   onBinary(message: ArrayBuffer): void;
 }
 
+const SLOW_TIMEOUT_MS = 2000;
 const SILENCE_TIMEOUT_MS = 5000;
 const SHORT_RETRY_MS = 600;
 
@@ -25,7 +30,10 @@ export class StreamConnection {
   #attempt = 0;
   /** Whether a connection existed, which can be lost. */
   #wasLive = false;
+  /** Whether it is silent, and another connection is tried. */
+  #isLost = false;
   #retryTimer: ReturnType<typeof setTimeout> | undefined;
+  #slowTimer: ReturnType<typeof setTimeout> | undefined;
   #silenceTimer: ReturnType<typeof setTimeout> | undefined;
 
   /**
@@ -41,17 +49,21 @@ export class StreamConnection {
   open(): void {
     clearTimeout(this.#retryTimer);
     this.#drop();
+    this.#isLost = false;
     const socket = new WebSocket(this.address());
     socket.binaryType = "arraybuffer";
     socket.onmessage = (event: MessageEvent<string | ArrayBuffer>) => this.#receive(event.data);
-    socket.onclose = () => void this.#recover();
+    socket.onclose = () => {
+      this.#drop();
+      void this.#recover();
+    };
     this.#socket = socket;
     this.#listenForSilence();
   }
 
   /** Retry at once if it was waiting: the network or the page is available again. */
   retryNow(): void {
-    if (this.#socket === null) this.open();
+    if (this.#socket === null || this.#isLost) this.open();
   }
 
   /** Send a message now or drop it: a queued message would arrive too late. */
@@ -63,24 +75,32 @@ export class StreamConnection {
   #receive(data: string | ArrayBuffer): void {
     this.#attempt = 0;
     this.#wasLive = true;
+    // A link that was silent for a while continues with the same connection.
+    this.#isLost = false;
+    clearTimeout(this.#retryTimer);
     this.#listenForSilence();
-    this.handlers.onPhase("live");
     if (typeof data === "string") this.handlers.onText(data);
     else this.handlers.onBinary(data);
+    this.handlers.onPhase("live");
   }
 
   #listenForSilence(): void {
+    clearTimeout(this.#slowTimer);
     clearTimeout(this.#silenceTimer);
+    this.#slowTimer = setTimeout(() => {
+      if (this.#wasLive) this.handlers.onPhase("slow");
+    }, SLOW_TIMEOUT_MS);
     this.#silenceTimer = setTimeout(() => void this.#recover(), SILENCE_TIMEOUT_MS);
   }
 
   async #recover(): Promise<void> {
-    this.#drop();
+    this.#isLost = true;
+    clearTimeout(this.#slowTimer);
     if (this.#wasLive) this.handlers.onPhase("lost");
     const probeResult = await this.probe();
-    const isOpenAgain = this.#socket !== null;
-    if (isOpenAgain) return;
+    if (!this.#isLost) return;
     if (probeResult === "locked" || probeResult === "ended") {
+      this.#drop();
       this.handlers.onPhase(probeResult);
       return;
     }
@@ -93,6 +113,7 @@ export class StreamConnection {
   }
 
   #drop(): void {
+    clearTimeout(this.#slowTimer);
     clearTimeout(this.#silenceTimer);
     if (this.#socket === null) return;
     this.#socket.onmessage = null;

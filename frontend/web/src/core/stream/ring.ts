@@ -4,7 +4,7 @@ import type { Batch } from "./decoder";
 import { TimeRing } from "./times";
 
 export const RATE_HZ = 200;
-/** Seconds of past in the first message; the server stores no more. */
+/** Seconds of past that follow the first samples; the server stores no more. */
 export const HISTORY_S = 20;
 export const MAX_WINDOW_S = 60;
 
@@ -63,6 +63,8 @@ interface Lane {
 export class SampleRing extends TimeRing {
   #channels: readonly string[];
   #lanes: Lane[] = [];
+  /** The columns of `addChannelsFrom`. */
+  readonly #added = new Set<string>();
 
   /**
    * @param lanes ids of the lanes
@@ -111,6 +113,24 @@ export class SampleRing extends TimeRing {
     }
   }
 
+  /** Insert samples of the past; samples that are newer than all of them stay. */
+  insert(batch: Batch, periodS: number): void {
+    const first = this.lowerBound((batch.firstTick + batch.count * batch.stride) * periodS);
+    const times = this.timesFrom(first);
+    const columns = this.#lanes.flatMap((lane) => [...lane.columns.values()]);
+    const values = columns.map((column) => {
+      const copy = new Float32Array(times.length);
+      this.copyOut(column, first, copy, 1);
+      return copy;
+    });
+    this.append(batch, periodS);
+    for (const [index, [timeS, dueTick]] of times.entries()) {
+      for (const [place, column] of columns.entries())
+        column[this.head] = values[place]?.[index] as number;
+      this.advanceTo(timeS, dueTick);
+    }
+  }
+
   /** The channels streamed, and those derived from them. */
   get #columns(): readonly string[] {
     return [...this.#channels, ...derivedFrom(this.#channels)];
@@ -145,10 +165,14 @@ export class SampleRing extends TimeRing {
     return other;
   }
 
-  /** Copy missing channels from another ring, for samples of the same time. */
+  /**
+   * Copy missing channels from another ring, for samples of the same time; again what has arrived
+   * since then.
+   */
   addChannelsFrom(source: SampleRing): void {
-    const known = this.#columns;
+    const known = this.#columns.filter((name) => !this.#added.has(name));
     const missing = source.#columns.filter((name) => !known.includes(name));
+    for (const name of missing) this.#added.add(name);
     this.#channels = [...new Set([...this.#channels, ...source.#channels])];
     for (const { id, columns } of this.#lanes) {
       const lane = source.#lanes.findIndex((other) => other.id === id) + 1;

@@ -104,8 +104,20 @@ export class TimeRing {
   }
 
   protected advance(tick: number, stride: number, periodS: number): void {
-    this.#time[this.#next] = tick * periodS;
-    this.#due[this.#next] = tick + stride;
+    this.advanceTo(tick * periodS, tick + stride);
+  }
+
+  /** Times of the samples from index `first` on, and the ticks at which the next ones are expected. */
+  protected timesFrom(first: number): readonly (readonly [timeS: number, dueTick: number])[] {
+    return Array.from({ length: this.#length - first }, (_, index) => {
+      const slot = this.slot(first + index);
+      return [this.#time[slot] as number, this.#due[slot] as number] as const;
+    });
+  }
+
+  protected advanceTo(timeS: number, dueTick: number): void {
+    this.#time[this.#next] = timeS;
+    this.#due[this.#next] = dueTick;
     this.#next = (this.#next + 1) % this.capacity;
     this.#length = Math.min(this.#length + 1, this.capacity);
     this.#total++;

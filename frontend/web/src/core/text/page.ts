@@ -99,6 +99,7 @@ export const pageText = {
   connection: {
     connecting: "Connecting",
     live: "Live",
+    slow: "Slow connection: receiving …",
     lost: "Offline",
     locked: "Locked",
     ended: "Ended",
