@@ -101,7 +101,8 @@ class SampleCursor:
         if self._live_first:
             stride *= min(MAX_SLOW_THINNING, max(1, int(waited_s / THINNED_AFTER_S)))
         oldest = history.first_tick
-        if slow and self._next >= self._promised:
+        is_thinned = self._live_first and waited_s < THINNED_AFTER_S * MAX_SLOW_THINNING
+        if slow and not is_thinned and self._next >= self._promised:
             oldest = max(oldest, history.end_tick - self._count_newest(stride))
         if self._next < oldest:
             skipped_to = self._align(oldest)
