@@ -59,7 +59,7 @@ class Journal:
         self.branch_of: BranchPoint | None = None
         self.run = run
         self.run_number += 1
-        self.history.clear()
+        self.history.clear(len(run.lanes))
         self.events: deque[Event] = deque(maxlen=MAX_EVENTS)
         self._reported: deque[Event] = deque(maxlen=MAX_EVENTS)
         self.timeline = Timeline(run.configuration, self._is_bench, KEPT_S / run.period_s)
