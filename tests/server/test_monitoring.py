@@ -53,7 +53,7 @@ def test_lab_is_ready_until_the_disk_is_nearly_full(tmp_path, monkeypatch) -> No
 
 
 def test_lab_that_cannot_record_is_not_ready(tmp_path) -> None:
-    (tmp_path / "catalogue.sqlite").mkdir()
+    (tmp_path / "runs").write_text("")
     with run_lab_in_process(data=str(tmp_path)) as running:
         answer = running.client.get("/api/v1/ready")
         assert answer.status_code == 503

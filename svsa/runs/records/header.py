@@ -1,5 +1,6 @@
 """The header of a record: version, run, lanes, channels, design."""
 
+import contextlib
 import json
 import os
 import re
@@ -25,6 +26,7 @@ LONGEST_NOTES = 10_000
 LONGEST_TAG = 50
 MAX_TAGS = 20
 LONGEST_LANE = 60
+LARGEST_TEXT_BYTES = 1 << 24
 
 HEADER_FILE = "header.json"
 COMMANDS_FILE = "commands.jsonl"
@@ -154,12 +156,25 @@ def read_header(folder: Path) -> RecordHeader:
         RecordError: If there is none.
     """
     path = folder / HEADER_FILE
+    check_files(folder)
     try:
         return parse_header(path.read_text(encoding="utf-8"))
     except FileNotFoundError:
         raise RecordError(f"Record {folder.name} has no {HEADER_FILE}.") from None
     except (OSError, UnicodeDecodeError, RecordError) as error:
         raise RecordError(f"{HEADER_FILE} of record {folder.name} is damaged: {error}") from None
+
+
+def check_files(folder: Path) -> None:
+    """Raise `RecordError` if reading a file could block or take all memory."""
+    with contextlib.suppress(OSError):  # reported by the access itself
+        for path in folder.iterdir():
+            text = f"{path.name} of record {folder.name}"
+            if path.exists() and not (path.is_file() or path.is_dir()):
+                raise RecordError(f"{text} is not a file.")
+            size = path.stat().st_size if path.suffix == ".json" else 0
+            if size > LARGEST_TEXT_BYTES:
+                raise RecordError(f"{text} has {size} bytes, more than {LARGEST_TEXT_BYTES}.")
 
 
 def parse_header(text: str) -> RecordHeader:
@@ -170,7 +185,7 @@ def parse_header(text: str) -> RecordHeader:
     """
     try:
         written = json.loads(text)
-    except ValueError as error:
+    except (ValueError, RecursionError) as error:
         raise RecordError(f"not JSON ({error})") from None
     if not isinstance(written, dict):
         raise RecordError("not a JSON object")
@@ -180,11 +195,12 @@ def parse_header(text: str) -> RecordHeader:
         raise RecordError(f"format {str(written.get('format'))[:40]}, but {known}")
     if newer:
         written = {name: written[name] for name in written if name in RecordHeader.model_fields}
-    if "configuration" in written:
-        written["configuration"] = translate_fields(written["configuration"], FIELDS)
     try:
+        json.dumps(written, ensure_ascii=False).encode()  # rejects surrogates
+        if "configuration" in written:
+            written["configuration"] = translate_fields(written["configuration"], FIELDS)
         return RecordHeader(**written)
-    except ParameterError as error:
+    except (ParameterError, TypeError, ValueError, AttributeError, RecursionError) as error:
         raise RecordError(str(error)) from None
 
 

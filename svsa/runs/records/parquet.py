@@ -202,7 +202,7 @@ def measure_bytes(folder: Path) -> int:
     """Return the disk space of a record, bytes."""
     total = 0
     for path in folder.iterdir():
-        with contextlib.suppress(FileNotFoundError):  # a draft that was renamed in the meantime
+        with contextlib.suppress(OSError):  # a draft that was renamed, a link in a circle
             total += path.stat().st_size
     return total
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import os
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -234,9 +235,13 @@ def claim(folder: Path) -> Iterator[bool]:
         False while any process, including this one, writes the record.
     """
     try:
-        file = (folder / STREAM_FILE).open("rb")
+        # A pipe is not the stream of a recorder: without this flag its opening would block.
+        flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0)
+        descriptor = os.open(folder / STREAM_FILE, flags)
     except OSError:
         yield True
         return
-    with file:
-        yield try_lock(file.fileno())
+    try:
+        yield try_lock(descriptor)
+    finally:
+        os.close(descriptor)

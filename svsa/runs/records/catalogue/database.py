@@ -2,42 +2,83 @@
 
 import contextlib
 import dataclasses
+import functools
+import logging
+import os
 import sqlite3
+import threading
 import weakref
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, Concatenate, ParamSpec, TypeVar
 
 from svsa.inputs.file_lock import close_to_others
 from svsa.runs.records.catalogue.entry import (
     FACETS,
     CatalogueError,
+    DamagedCatalogueError,
     Query,
     Reader,
     RunEntry,
     RunPage,
+    UnknownRunError,
 )
 from svsa.runs.records.catalogue.table import get, has, prepare, put, put_branches
 
 BUSY_TIMEOUT_S = 5.0
 _NEVER_NULL = ("created", "name", "session", "duration_s", "bytes", "plant")
+_OTHER_FILES = ("-wal", "-shm", "-journal")
+_OF_MACHINE = {
+    sqlite3.SQLITE_PERM, sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED, sqlite3.SQLITE_NOMEM,
+    sqlite3.SQLITE_READONLY, sqlite3.SQLITE_INTERRUPT, sqlite3.SQLITE_IOERR, sqlite3.SQLITE_FULL,
+    sqlite3.SQLITE_CANTOPEN, sqlite3.SQLITE_PROTOCOL, sqlite3.SQLITE_AUTH,
+}  # fmt: skip
+"""The errors of SQLite that say nothing about the content of the database."""
+_log = logging.getLogger("svsa")
+_Args = ParamSpec("_Args")
+_Result = TypeVar("_Result")
+
+
+def _rebuilding(
+    method: Callable[Concatenate["Database", _Args], _Result],
+) -> Callable[Concatenate["Database", _Args], _Result]:
+    """Call the method again with a new database if it finds the current one damaged."""
+
+    @functools.wraps(method)
+    def call(database: "Database", *args: _Args.args, **named: _Args.kwargs) -> _Result:
+        file = database._identify()
+        try:
+            return method(database, *args, **named)
+        except DamagedCatalogueError as error:
+            database._rebuild(file, error)
+            return method(database, *args, **named)
+
+    return call
 
 
 class Database:
-    """The table of runs; one connection per call, safe for threads and processes."""
+    """The table of runs; one connection per call, safe for threads and processes.
 
-    def __init__(self, path: Path) -> None:
-        self._path = path
+    A damaged database is set aside, whenever the damage is found.
+
+    Args:
+        path: The file.
+        fill: Adds all runs to a new database that replaces a damaged one in use.
+    """
+
+    def __init__(self, path: Path, fill: Callable[["Database"], object] = lambda _: None) -> None:
+        self._path, self._fill = path, fill
+        self._filling = threading.RLock()
+        self._is_filling = False
+        self.close: Callable[[], object] = lambda: None
         try:
             self._prepare()
-        except (sqlite3.OperationalError, CatalogueError) as error:
-            raise CatalogueError(f"The catalogue {path} cannot be used: {error}.") from None
-        except sqlite3.DatabaseError:
-            self._set_aside()
+        except DamagedCatalogueError as error:
+            self._set_aside(error)
             self._prepare()
-        self.close: Callable[[], object] = lambda: None
         self._keep_open()
 
+    @_rebuilding
     def add(self, *entries: RunEntry) -> None:
         """Add runs; known ones stay unchanged."""
         with self._connect() as connection:
@@ -55,6 +96,7 @@ class Database:
         """
         return self.revise(run_id, lambda _: changes)
 
+    @_rebuilding
     def revise(self, run_id: str, decide: Callable[[RunEntry], dict[str, Any]]) -> RunEntry:
         """Replace the fields that `decide` returns for the current entry.
 
@@ -80,6 +122,7 @@ class Database:
                 put_branches(connection, run_id)
         return changed
 
+    @_rebuilding
     def get(self, run_id: str) -> RunEntry:
         """Return the run of this id.
 
@@ -89,6 +132,7 @@ class Database:
         with self._connect() as connection:
             return get(connection, run_id)
 
+    @_rebuilding
     def forget(self, run_id: str) -> None:
         """Remove a run from the table."""
         with self._connect() as connection:
@@ -97,12 +141,14 @@ class Database:
             connection.execute("DELETE FROM facets WHERE run = ?", (run_id,))
             put_branches(connection, run_id)
 
+    @_rebuilding
     def query(self, query: Query) -> RunPage:
         """Return a page of the runs that match the query."""
         where, values = _build_condition(query)
         window = (query.page_size, (query.page - 1) * query.page_size)
         order = build_order(query.sort)
         with self._connect() as connection:
+            connection.execute("BEGIN")  # all reads see the same state
             if not query.words or query.page > 1:
                 count = f"SELECT count(*) FROM runs WHERE {where}"  # noqa: S608
                 (total,) = connection.execute(count, values).fetchone()
@@ -111,11 +157,15 @@ class Database:
                 total, columns = 0, "id, count(*) OVER ()"
             select = f"SELECT {columns} FROM runs WHERE {where} ORDER BY {order} LIMIT ? OFFSET ?"  # noqa: S608
             found = connection.execute(select, [*values, *window]).fetchall()
-            entries = tuple(get(connection, run_id) for run_id, _ in found)
+            try:
+                entries = tuple(get(connection, run_id) for run_id, _ in found)
+            except UnknownRunError as error:
+                raise DamagedCatalogueError(f"{error}") from None
         if found and not total:
             total = found[0][1]
         return RunPage(entries, total, query.page, query.page_size)
 
+    @_rebuilding
     def list_facets(self, reader: Reader | None = None) -> dict[str, dict[str, int]]:
         """List the filters for runs outside the trash: facet, value, number of runs."""
         select, values = "SELECT facet, value, runs FROM counts WHERE runs > 0", []
@@ -130,9 +180,12 @@ class Database:
             for facet, value, count in connection.execute(
                 f"{select} ORDER BY facet, value", values
             ):
+                if facet not in facets or not isinstance(value, str):
+                    raise DamagedCatalogueError(f"invalid filter {facet!r:.40}: {value!r:.40}")
                 facets[facet][value] = count
         return facets
 
+    @_rebuilding
     def measure_bytes(self, owner: str) -> int:
         """Return the bytes of one owner's runs, including the trash."""
         select = "SELECT coalesce(sum(bytes), 0) FROM runs WHERE owner = ?"
@@ -140,12 +193,14 @@ class Database:
             (taken,) = connection.execute(select, (owner,)).fetchone()
             return taken
 
+    @_rebuilding
     def find(self, run_ids: Iterable[str]) -> dict[str, RunEntry]:
         """Return those of these runs that are known, by id."""
         with self._connect() as connection:
             known = [run_id for run_id in set(run_ids) if has(connection, run_id)]
             return {run_id: get(connection, run_id) for run_id in known}
 
+    @_rebuilding
     def list_known(self) -> dict[str, tuple[str, bool, str]]:
         """List each run's state, whether it is in the trash, and `RunEntry.files`."""
         select = "SELECT id, state, trash, files FROM runs"
@@ -158,9 +213,10 @@ class Database:
         """Open a transaction.
 
         Raises:
-            CatalogueError: If the database is unusable.
+            CatalogueError: If the database is unusable; `DamagedCatalogueError` if it is damaged.
         """
         try:
+            self._check_files()
             connection = sqlite3.connect(self._path, timeout=BUSY_TIMEOUT_S)
             try:
                 connection.execute("PRAGMA synchronous = NORMAL")
@@ -168,21 +224,24 @@ class Database:
                     yield connection
             finally:
                 connection.close()
-        except sqlite3.Error as error:
-            raise CatalogueError(f"The catalogue {self._path} cannot be used: {error}.") from None
+        # An invalid text in the database, and in SQLite's message about it.
+        except (sqlite3.Error, UnicodeDecodeError, DamagedCatalogueError) as error:
+            kind = DamagedCatalogueError if _is_damage(error) else CatalogueError
+            raise kind(f"The catalogue {self._path} cannot be used: {error}.") from None
+
+    def _check_files(self) -> None:
+        """Raise `DamagedCatalogueError` if a folder, pipe or link is in place of a file."""
+        for ending in ("", *_OTHER_FILES):
+            path = self._path.with_name(self._path.name + ending)
+            if not path.is_file() and os.path.lexists(path):
+                raise DamagedCatalogueError(f"{path.name} is not a file")
 
     def _prepare(self) -> None:
         # Other accounts must not read names and owners of runs; SQLite gives its other files the
         # same mode.
         close_to_others(self._path)
-        connection = sqlite3.connect(self._path, timeout=BUSY_TIMEOUT_S)
-        try:
+        with self._connect() as connection:
             prepare(connection)
-            (verdict,) = connection.execute("PRAGMA quick_check(1)").fetchone()
-            if verdict != "ok":
-                raise sqlite3.DatabaseError(verdict)
-        finally:
-            connection.close()
 
     def _keep_open(self) -> None:
         """Keep one idle connection: closing the last one deletes the files of the write-ahead log.
@@ -194,17 +253,52 @@ class Database:
             self.close = weakref.finalize(self, idle.close)
             idle.execute("SELECT count(*) FROM runs").fetchone()
 
-    def _set_aside(self) -> None:
-        """Rename an invalid database; the folders have all its data."""
+    def _identify(self) -> tuple[int, int] | None:
+        """Return device and number of the database's file; None if it does not exist."""
+        try:
+            state = self._path.stat()
+        except OSError:
+            return None
+        return state.st_dev, state.st_ino
+
+    def _rebuild(self, file: tuple[int, int] | None, damage: DamagedCatalogueError) -> None:
+        """Replace the damaged `file`, unless another thread or process already did."""
+        with self._filling:
+            if self._is_filling:
+                raise damage  # of the new database
+            if file is not None and self._identify() != file:
+                return
+            self._is_filling = True
+            try:
+                self.close()
+                self._set_aside(damage)
+                self._prepare()
+                self._keep_open()
+                self._fill(self)
+            finally:
+                self._is_filling = False
+
+    def _set_aside(self, damage: DamagedCatalogueError) -> None:
+        """Rename a damaged or foreign database; the folders of the runs have all its data."""
         number = 1
-        while (aside := self._path.with_name(f"{self._path.name}.damaged-{number}")).exists():
+        while os.path.lexists(aside := self._path.with_name(f"{self._path.name}.damaged-{number}")):
             number += 1
         try:
-            self._path.replace(aside)
-            for ending in ("-wal", "-shm"):
-                self._path.with_name(self._path.name + ending).unlink(missing_ok=True)
+            for ending in ("", *_OTHER_FILES):
+                with contextlib.suppress(FileNotFoundError):
+                    self._path.with_name(self._path.name + ending).rename(f"{aside}{ending}")
         except OSError as error:
             raise CatalogueError(f"The catalogue {self._path} is damaged: {error}.") from None
+        _log.warning("%s It was renamed to %s; the runs are indexed again.", damage, aside.name)
+
+
+def _is_damage(error: Exception) -> bool:
+    """Whether an error shows that the content of the database is invalid."""
+    code = getattr(error, "sqlite_errorcode", None)
+    if code == sqlite3.SQLITE_IOERR_SHORT_READ:
+        return True
+    # Python reports an invalid text without a code.
+    return code is None or code & 0xFF not in _OF_MACHINE
 
 
 def _build_condition(query: Query) -> tuple[str, list[Any]]:

@@ -42,6 +42,10 @@ class CatalogueError(SvsaError):
     """The folder or the database of the runs is unusable; no run is lost."""
 
 
+class DamagedCatalogueError(CatalogueError):
+    """The database is damaged or not a catalogue; the folders of the runs have all its data."""
+
+
 class UnknownRunError(SvsaError):
     """No run of this id is in the catalogue."""
 
@@ -221,22 +225,26 @@ def read_entry(text: str) -> RunEntry:
 
     Metrics of a window that was not written are left out. Window, metrics and files are left out if
     an older version computed fewer metrics: `index_runs` then computes them again from the samples.
+
+    Raises:
+        DamagedCatalogueError: If it is not an entry.
     """
-    written = json.loads(text)
-    for name in ("tags", "lanes"):
-        written[name] = tuple(written[name])
-    written["settings"] = _read(RunSettings, translate_fields(written.get("settings"), SETTINGS))
-    written["window"] = _read(MeasuredWindow, written.get("window"))
-    written["fault"] = _read(Fault, written.get("fault"))
-    if written["metrics"] is not None:
-        written["metrics"] = _read(tuple[Metrics, ...], written["metrics"])
-        if written["metrics"] is None:
-            written |= {"window": None, "files": ""}
-    if written["window"] is None:
-        written["metrics"] = None
-    if branch := written.get("branch_of"):
-        written["branch_of"] = BranchPoint(**branch)
-    return RunEntry(**written)
+    try:
+        written = json.loads(text)
+        written["settings"] = _read(
+            RunSettings, translate_fields(written.get("settings"), SETTINGS)
+        )
+        written["window"] = _read(MeasuredWindow, written.get("window"))
+        written["fault"] = _read(Fault, written.get("fault"))
+        if written["metrics"] is not None:
+            written["metrics"] = _read(tuple[Metrics, ...], written["metrics"])
+            if written["metrics"] is None:
+                written |= {"window": None, "files": ""}
+        if written["window"] is None:
+            written["metrics"] = None
+        return msgspec.convert(written, RunEntry)
+    except (ValueError, TypeError, LookupError, AttributeError, RecursionError) as error:
+        raise DamagedCatalogueError(f"an entry is invalid ({error})") from None
 
 
 def _read(kind: Any, written: Any) -> Any:

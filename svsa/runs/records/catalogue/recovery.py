@@ -3,6 +3,7 @@
 import contextlib
 import dataclasses
 import functools
+import logging
 from collections.abc import Iterator
 from dataclasses import fields
 from datetime import UTC, datetime
@@ -22,6 +23,7 @@ from svsa.runs.records.settings import describe_settings
 
 CUT_OFF = "The recording was cut off."
 GONE = "Its folder is missing."
+_log = logging.getLogger("svsa")
 
 
 def index_runs(database: Database, runs: Path, trash: Path) -> Iterator[tuple[int, int]]:
@@ -39,16 +41,21 @@ def index_runs(database: Database, runs: Path, trash: Path) -> Iterator[tuple[in
         found.add(folder.name)
         state, was_deleted, files = known.get(folder.name, ("", deleted, ""))
         is_settled = state in ("complete", "failed", "damaged") and was_deleted == deleted
-        if is_settled and not (folder / STREAM_FILE).exists() and files == read_files(folder):
-            continue
+        with contextlib.suppress(OSError):
+            is_same = files == read_files(folder)
+            if is_settled and is_same and not (folder / STREAM_FILE).exists():
+                continue
         waiting.append((folder, deleted, state))
     yield 0, len(waiting)
     # Ids begin with the time: the newest runs, which users need most, are listed first.
     waiting.sort(key=lambda one: one[0].name, reverse=True)
     for done, (folder, deleted, state) in enumerate(waiting, 1):
-        # Another process may remove it at the same time.
-        with contextlib.suppress(FileNotFoundError, UnknownRunError):
+        try:
             _recover_run(database, folder, deleted, state)
+        except (FileNotFoundError, UnknownRunError):
+            pass  # another process removed it at the same time
+        except OSError as error:  # for example no permission
+            _log.warning("Run %s cannot be listed: %s.", folder.name, error)
         yield done, len(waiting)
     for run_id in known.keys() - found:
         with contextlib.suppress(UnknownRunError):
@@ -87,7 +94,7 @@ def _recover_run(database: Database, folder: Path, deleted: bool, state: str) ->
     if not state:
         # The process died before its first byte, and there is nothing to recover, or it is about to
         # record.
-        if not any(path.stat().st_size for path in folder.iterdir()):
+        if measure_bytes(folder) == 0:
             return
         database.add(build_entry(folder))
     entry = database.get(folder.name)
@@ -123,8 +130,9 @@ def describe(folder: Path, failure: str = "") -> dict[str, Any]:
         Fields of `RunEntry`. A record that cannot be read completely is "damaged": the message has
         the reason, and what can still be read.
     """
-    files = {"files": read_files(folder)} if folder.is_dir() else {}
+    files: dict[str, Any] = {}
     try:
+        files = {"files": read_files(folder)} if folder.is_dir() else {}
         record = open_record(folder)
         changes = {
             "state": "complete",
@@ -135,8 +143,9 @@ def describe(folder: Path, failure: str = "") -> dict[str, Any]:
             "bytes": measure_bytes(folder),
             **_describe(record),
         }
-    except (RecordError, OSError) as error:
-        return files | {"state": "damaged", "message": f"{error} {describe_readable(folder)}"}
+    except Exception as error:  # whatever damaged files cause must not stop the index of others
+        reason = error if isinstance(error, RecordError | OSError) else f"{error!r:.200}."
+        return files | {"state": "damaged", "message": f"{reason} {describe_readable(folder)}"}
     if failure:
         saved = f"The first {record.duration_s:.6g} s were saved and can be opened."
         changes |= {"state": "failed", "message": f"{failure} {saved}"}
@@ -147,7 +156,7 @@ def read_files(folder: Path) -> str:
     """Compute a text that changes with the files, and with the version of svsa."""
     size = newest = 0
     for path in folder.iterdir():
-        with contextlib.suppress(FileNotFoundError):  # a draft that was renamed in the meantime
+        with contextlib.suppress(OSError):  # a draft that was renamed, a link in a circle
             state = path.stat()
             size, newest = size + state.st_size, max(newest, state.st_mtime_ns)
     return f"{__version__} {size} {newest}"
@@ -191,7 +200,7 @@ def _finish(folder: Path, entry: RunEntry) -> dict[str, Any]:
         try:
             if recover(folder) is None:
                 return {}
-        except RecordError as error:  # full disk, or damaged stream: see `describe`
+        except Exception as error:  # full disk, or damaged files: see `describe`
             failure = f"{CUT_OFF} {error}"
     changes = describe(folder, failure)
     if entry.state == "failed" and changes["state"] != "damaged":

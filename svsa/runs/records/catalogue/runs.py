@@ -8,6 +8,7 @@ import dataclasses
 import shutil
 from collections.abc import Iterable, Iterator
 from datetime import UTC, datetime
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -63,7 +64,9 @@ class Catalogue:
             self._trash.mkdir(exist_ok=True)
         except OSError as error:
             raise CatalogueError(f"Runs cannot be kept in {self.folder}: {error}.") from None
-        self._database = Database(self.folder / "catalogue.sqlite")
+        self._database = Database(
+            self.folder / "catalogue.sqlite", partial(_fill, self._runs, self._trash)
+        )
         self._recorders: dict[str, Recorder] = {}
         self._is_indexing = False
 
@@ -388,6 +391,12 @@ class Catalogue:
 
     def _locate(self, entry: RunEntry) -> Path:
         return (self._runs if entry.deleted is None else self._trash) / entry.id
+
+
+def _fill(runs: Path, trash: Path, database: Database) -> None:
+    # No method of a catalogue: the database would keep it and its file open.
+    for _ in index_runs(database, runs, trash):
+        pass
 
 
 def _move(source: Path, target: Path) -> None:

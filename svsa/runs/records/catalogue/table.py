@@ -7,12 +7,14 @@ older catalogue is rebuilt from its entries; `index_runs` then reads the rest fr
 
 import re
 import sqlite3
+from contextlib import closing
+from functools import cache
 from typing import Any
 
 from svsa.actuators.faults import label_fault
 from svsa.runs.records.catalogue.entry import (
     SORTS,
-    CatalogueError,
+    DamagedCatalogueError,
     RunEntry,
     UnknownRunError,
     fold,
@@ -21,7 +23,8 @@ from svsa.runs.records.catalogue.entry import (
 )
 
 VERSION = 8
-_REBUILT = range(VERSION)
+_TABLES = {"runs", "entries", "facets", "counts", "tags"}
+"""The tables of this format and of older ones."""
 _COLUMNS = {
     "id": "TEXT PRIMARY KEY",
     "created": "TEXT NOT NULL",
@@ -50,7 +53,7 @@ _SCHEMA = (
     *(f"CREATE INDEX runs_by_{column} ON runs (trash, {column}, id)" for column in SORTS),
     "CREATE INDEX runs_by_origin ON runs (branch_run)",
     "CREATE INDEX runs_by_owner ON runs (owner)",
-    "CREATE TABLE IF NOT EXISTS entries (id TEXT PRIMARY KEY, entry TEXT)",
+    "CREATE TABLE entries (id TEXT PRIMARY KEY, entry TEXT)",
     "CREATE TABLE facets (facet TEXT, value TEXT, run TEXT, trash INTEGER,"
     " PRIMARY KEY (facet, value, run)) WITHOUT ROWID",
     "CREATE INDEX facets_by_run ON facets (run)",
@@ -70,33 +73,56 @@ def prepare(connection: sqlite3.Connection) -> None:
     """Create the tables, or rebuild older ones.
 
     Raises:
-        CatalogueError: If the format is newer.
+        DamagedCatalogueError: If it is not a catalogue of this format or of an older one.
     """
+    if not _is_current(connection):
+        with connection:
+            connection.execute("BEGIN IMMEDIATE")
+            # Tested again under the lock: another process may have created the tables.
+            if not _is_current(connection):
+                _build(connection)
     connection.execute("PRAGMA journal_mode = WAL")
-    if _read_version(connection) == VERSION:
-        return
-    with connection:
-        connection.execute("BEGIN IMMEDIATE")
-        # Read again under the lock: another process may have created the tables.
-        version = _read_version(connection)
-        if version in _REBUILT:
-            _build(connection)
-        elif version != VERSION:
-            known = f"this version of svsa reads format {VERSION}"
-            raise CatalogueError(f"It is of format {version}; {known}")
+    # The complete check: a damaged index hides runs or lists them twice.
+    (verdict,) = connection.execute("PRAGMA integrity_check(1)").fetchone()
+    if verdict != "ok":
+        raise DamagedCatalogueError(str(verdict))
 
 
-def _read_version(connection: sqlite3.Connection) -> int:
+def _is_current(connection: sqlite3.Connection) -> bool:
     (version,) = connection.execute("PRAGMA user_version").fetchone()
-    return version
+    schema = _read_schema(connection)
+    if version == VERSION and schema == _build_schema():
+        return True
+    tables = {table for _, table in schema}
+    if (version, tables) == (0, set()):
+        return False
+    if 0 < version < VERSION and "entries" in tables and tables <= _TABLES:
+        return False
+    raise DamagedCatalogueError(f"it is not a catalogue of format {VERSION} or older")
+
+
+def _read_schema(connection: sqlite3.Connection) -> dict[tuple[str, str], str]:
+    """Read the statements that created each object of the database, by object and table."""
+    rows = connection.execute("SELECT name, tbl_name, sql FROM sqlite_master WHERE sql NOT NULL")
+    return {(name, table): sql for name, table, sql in rows}
+
+
+@cache
+def _build_schema() -> dict[tuple[str, str], str]:
+    with closing(sqlite3.connect(":memory:")) as connection:
+        _build(connection)
+        return _read_schema(connection)
 
 
 def _build(connection: sqlite3.Connection) -> None:
-    for table in ("runs", "tags", "facets", "counts"):
+    entries: list[tuple[str]] = []
+    if ("entries", "entries") in _read_schema(connection):
+        entries = connection.execute("SELECT entry FROM entries").fetchall()
+    for table in _TABLES:
         connection.execute(f"DROP TABLE IF EXISTS {table}")
     for statement in _SCHEMA:
         connection.execute(statement)
-    for (text,) in connection.execute("SELECT entry FROM entries").fetchall():
+    for (text,) in entries:
         put(connection, read_entry(text))
     connection.execute(f"PRAGMA user_version = {VERSION}")
 

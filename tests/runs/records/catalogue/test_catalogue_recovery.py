@@ -124,6 +124,6 @@ def test_unusable_folder_is_reported(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     with pytest.raises(CatalogueError, match="cannot be kept"):
         Catalogue(tmp_path / "file" / "data")
-    (tmp_path / "catalogue.sqlite").mkdir()
-    with pytest.raises(CatalogueError, match="cannot be used"):
+    (tmp_path / "runs").write_text("")
+    with pytest.raises(CatalogueError, match="cannot be kept"):
         Catalogue(tmp_path)
