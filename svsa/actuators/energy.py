@@ -7,10 +7,8 @@ actuators of this kind.
 """
 
 import hashlib
-import importlib.util
 import inspect
 import math
-import os
 import sys
 from contextlib import suppress
 from functools import cache
@@ -24,7 +22,7 @@ from numba.core import types
 from svsa.actuators.energy_source import reject_energy, write_source
 from svsa.actuators.mechanism import MAX_ELASTIC, Mechanism
 from svsa.actuators.spring import SpringDerivatives, SpringState, SpringTorques, StiffnessMargin
-from svsa.numerics.code_cache import choose_root
+from svsa.numerics.code_cache import choose_root, make_folder, read_sealed, write_sealed
 from svsa.numerics.exported import find_address
 
 _GIVEN = [types.float64] * (2 + MAX_ELASTIC)
@@ -102,23 +100,22 @@ def _check_stiffness(mechanism: Mechanism, energy: Energy) -> None:
 def _load_module(mechanism: Mechanism) -> ModuleType:
     """The module with the functions; from the cache if the same energy was differentiated."""
     name = f"svsa_energy_{mechanism.name}_{_compute_digest(mechanism)}"
-    path = choose_root() / "energies" / f"{name}.py"
-    if not path.exists():
-        text = write_source(mechanism)
+    text, path = None, f"<{name}>"
+    if (root := choose_root()) is not None:
+        path = root / "energies" / f"{name}.py"
+        text = read_sealed(path)
+    if text is None:
+        text = write_source(mechanism).encode()
         try:
-            path.parent.mkdir(parents=True, exist_ok=True)
-            new = path.with_suffix(f".{os.getpid()}")
-            new.write_text(text, encoding="utf-8")
-            new.replace(path)
-        except OSError:  # a read-only cache
-            module = ModuleType(name)
-            exec(compile(text, f"<{name}>", "exec"), module.__dict__)  # noqa: S102 (own text)
-            return module
-    spec = importlib.util.spec_from_file_location(name, path)
-    assert spec is not None and spec.loader is not None, path  # noqa: S101 (a file's name)
-    module = importlib.util.module_from_spec(spec)
+            if isinstance(path, Path):
+                make_folder(path.parent)
+                write_sealed(path, text)
+        except OSError:  # for example a read-only cache
+            path = f"<{name}>"
+    # Not imported: Python would store its code in a file of its own, which can be damaged, too.
+    module = ModuleType(name)
     sys.modules[name] = module
-    spec.loader.exec_module(module)
+    exec(compile(text, path, "exec"), module.__dict__)  # noqa: S102 (own text)
     return module
 
 

@@ -17,9 +17,15 @@ from typing import Any
 import numba
 import pytest
 from numba.core import config
-from numba.core.caching import IndexDataCacheFile
 
-from svsa.numerics.code_cache import ABANDONED_S, KEPT_TEXTS, UNUSED_S, SharedCache, open_folder
+from svsa.numerics.code_cache import (
+    ABANDONED_S,
+    KEPT_TEXTS,
+    UNUSED_S,
+    SealedFiles,
+    SharedCache,
+    open_folder,
+)
 
 OLD, NEW = f"{1:016x}", f"{2:016x}"
 
@@ -86,9 +92,9 @@ def test_code_compiled_by_two_processes_at_once_is_stored_for_each(
     monkeypatch.setattr(config, "CACHE_DIR", str(tmp_path))
     made = [numba.njit((kind,))(add_one) for kind in (numba.float64, numba.complex128)]
     results = [result for one in made for result in one.overloads.values()]
-    read, met = IndexDataCacheFile._load_index, threading.Barrier(2)
+    read, met = SealedFiles._load_index, threading.Barrier(2)
 
-    def read_and_wait(file: IndexDataCacheFile) -> object:
+    def read_and_wait(file: SealedFiles) -> object:
         found = read(file)
         with contextlib.suppress(threading.BrokenBarrierError):
             met.wait(timeout=0.5)
@@ -98,7 +104,7 @@ def test_code_compiled_by_two_processes_at_once_is_stored_for_each(
         SharedCache(add_one).save_overload(result.signature.args, result)
 
     with monkeypatch.context() as patched, ThreadPoolExecutor() as pool:
-        patched.setattr(IndexDataCacheFile, "_load_index", read_and_wait)
+        patched.setattr(SealedFiles, "_load_index", read_and_wait)
         list(pool.map(save, results))
     for one, result in zip(made, results, strict=True):
         kept = SharedCache(add_one).load_overload(result.signature.args, one.targetctx)
