@@ -15,6 +15,7 @@ from rich.console import Console
 from rich.markup import escape
 from rich.progress import Progress
 from rich.table import Table
+from typer.core import TyperGroup
 
 import svsa
 from svsa.actuators.installed import get_mechanism
@@ -46,7 +47,17 @@ from svsa.teaching.leaderboard.cli import leaderboard_command, submit_command
 if TYPE_CHECKING:
     from svsa.evaluation.reproduction import Reproduction
 
+
+class _Commands(TyperGroup):
+    def invoke(self, ctx: Any) -> Any:
+        try:
+            return super().invoke(ctx)
+        except EOFError as error:  # for which click prints only "Aborted."
+            raise RuntimeError(f"Unexpected end of a file or of the input: {error}.") from error
+
+
 app = typer.Typer(
+    cls=_Commands,
     no_args_is_help=True,
     pretty_exceptions_enable=False,
 )
