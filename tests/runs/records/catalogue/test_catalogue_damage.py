@@ -5,7 +5,7 @@ import os
 import random
 import shutil
 import sqlite3
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +19,8 @@ from tests.runs.records.records import add, list_ids
 RUNS = ["run-1", "run-2", "run-3"]
 NAME = "catalogue.sqlite"
 FEW, MANY = 40, 1500
+FORMER = (75, 245, 251, 295, 405, 435)
+"""Seeds of damages that prevented the start: texts in messages of SQLite that are not UTF-8."""
 
 
 @pytest.fixture(scope="module")
@@ -75,7 +77,7 @@ def use(catalogue: Catalogue) -> None:
         catalogue.restore(run_id)
 
 
-def check_damages(data: Path, name: str, seeds: range) -> None:
+def check_damages(data: Path, name: str, seeds: Iterable[int]) -> None:
     content = (data / name).read_bytes()
     for seed in seeds:
         for path in data.glob(f"{NAME}*"):
@@ -90,10 +92,10 @@ def check_damages(data: Path, name: str, seeds: range) -> None:
 
 
 @pytest.mark.parametrize("seeds", [
-    range(FEW),
-    pytest.param(range(FEW, MANY), marks=pytest.mark.exhaustive),
+    (*range(FEW // 2), *FORMER),
+    pytest.param(range(MANY), marks=pytest.mark.exhaustive),
 ], ids=["few", "many"])  # fmt: skip
-def test_damaged_catalogue_is_rebuilt_at_the_start(data: Path, seeds: range) -> None:
+def test_damaged_catalogue_is_rebuilt_at_the_start(data: Path, seeds: Iterable[int]) -> None:
     shutil.copy(data / NAME, data / "intact.sqlite")
     check_damages(data, NAME, seeds)
 
