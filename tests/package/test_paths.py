@@ -15,7 +15,11 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 PACKAGES = {"svsa": ROOT, "svsa_server": ROOT / "backend", "tests": ROOT}
-GENERATED = {"backend/svsa_server/page", "frontend/web/src/core/api/schema.d.ts"}
+GENERATED = {
+    *("backend/svsa_server/page", "frontend/web/src/core/api/schema.d.ts"),
+    *("docs/_build", "docs/reference/generated"),
+}
+REFERENCE = ROOT / "docs/reference/generated"
 OTHERS = {
     "svsa.channels",
     "svsa.series",
@@ -34,7 +38,11 @@ TEST = re.compile(r"`(test_\w+)`")
 DOCUMENTS = [
     ROOT / "README.md",
     ROOT / "CONTRIBUTING.md",
-    *sorted((ROOT / "docs").rglob("*.md")),
+    *sorted(
+        path
+        for path in (ROOT / "docs").rglob("*.md")
+        if not any((ROOT / folder) in path.parents for folder in GENERATED)
+    ),
     ROOT / "svsa/README.md",
     ROOT / "frontend/web/README.md",
 ]
@@ -69,6 +77,15 @@ def find_missing_modules(text):
     for name in MODULE.findall(text):
         if name not in OTHERS | read_entry_points() and not is_defined(name):
             yield name
+
+
+@cache
+def list_reference_pages():
+    """Return the pages that `make docs` writes: `PAGES` of `docs/reference_pages.py`."""
+    for node in ast.parse((ROOT / "docs/reference_pages.py").read_text()).body:
+        if isinstance(node, ast.AnnAssign) and ast.unparse(node.target) == "PAGES":
+            return {REFERENCE / f"{ast.literal_eval(key)}.md" for key in node.value.keys}
+    raise AssertionError("docs/reference_pages.py has no table PAGES")
 
 
 @cache
@@ -128,8 +145,13 @@ def find_missing(text):
 @pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: str(path.relative_to(ROOT)))
 def test_names_in_documents_exist(document):
     text = document.read_text()
-    links = [link.split("#")[0] for link in LINK.findall(text)]
-    lost = [link for link in links if not (document.parent / link).exists()]
+    links = {link.split("#")[0] for link in LINK.findall(text)}
+    targets = {link: (document.parent / link).resolve() for link in links}
+    lost = [
+        link
+        for link, path in targets.items()
+        if path not in list_reference_pages() and (path.parent == REFERENCE or not path.exists())
+    ]
     assert find_missing(text) + lost == []
 
 
@@ -142,7 +164,7 @@ def test_short_paths_start_at_the_document_or_in_one_of_its_folders(document):
     assert lost == []
 
 
-def tests_of_the_equation_table_exist():
+def test_tests_of_the_equation_table_exist():
     tests = {path.stem for path in (ROOT / "tests").rglob("test_*.py")}
     assert set(TEST.findall((ROOT / "svsa/README.md").read_text())) <= tests
 
