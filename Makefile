@@ -15,6 +15,7 @@ BY_FOUR := -n 4 $(BY_MODULE)
 BY_TWO := -n 2 $(BY_MODULE)
 # Less search depth than in `make test-all` (tests/conftest.py).
 SHOWN := --hypothesis-profile=shown
+SLOWEST := --durations=10
 SERVED := package docs hardware scene server client browser
 # Files in which the terms of .ci/replaced_terms.txt are rejected.
 WRITTEN := CHANGELOG.md CONTRIBUTING.md README.md backend docs frontend svsa \
@@ -45,14 +46,14 @@ bench-demo: .venv/installed $(PAGE)  ## start the lab on the emulator
 
 test: .venv/installed $(PAGE)  ## run fast tests of almost all documented behaviour, and of the main workflows
 	@$(COMPILE_AND_TEST_PAGE)
-	$(BIN)/pytest $(BY_FOUR) $(SHOWN) -m "not exhaustive and not wall_clock and (smoke or not browser)"
-	$(BIN)/pytest $(BY_TWO) -m "not exhaustive and wall_clock and smoke" $(WALL_CLOCK)
+	$(BIN)/pytest $(BY_FOUR) $(SHOWN) $(SLOWEST) -m "not exhaustive and not wall_clock and (smoke or not browser)"
+	$(BIN)/pytest $(BY_TWO) $(SLOWEST) -m "not exhaustive and wall_clock and smoke" $(WALL_CLOCK)
 
 test-all: COMPILED = --exhaustive
 test-all: .venv/installed $(PAGE)  ## run every test, as in CI
 	@$(COMPILE_AND_TEST_PAGE)
-	$(BIN)/pytest $(BY_FOUR) -m "not wall_clock"
-	$(BIN)/pytest -m wall_clock $(WALL_CLOCK)
+	$(BIN)/pytest $(BY_FOUR) $(SLOWEST) -m "not wall_clock"
+	$(BIN)/pytest $(SLOWEST) -m wall_clock $(WALL_CLOCK)
 
 quick: .venv/installed  ## run fast tests without server, bench or browser
 	@$(COMPILE_AND_TEST_PAGE)

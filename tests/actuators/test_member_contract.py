@@ -71,6 +71,7 @@ def test_functions_for_the_svsa_spring_reject_another_actuator():
         linearize(4.0, design=configuration)
 
 
+@pytest.mark.exhaustive
 def test_code_of_an_energy_is_generated_once(tmp_path, monkeypatch):
     """The second process does not need sympy."""
     script = (

@@ -3,6 +3,7 @@
 import json
 import math
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -16,15 +17,12 @@ from svsa.actuators.mechanism import Published
 from svsa.actuators.reach import find_deflection
 from svsa.actuators.signals import State, Torque
 from svsa.analysis.datasheet import measure
-from svsa.analysis.datasheet.measure import (
-    NOMINAL_SHARE,
-    _compare,
-    _list_speeds,
-    measure_datasheet,
-)
+from svsa.analysis.datasheet.measure import NOMINAL_SHARE, _compare, _list_speeds
 from svsa.analysis.datasheet.rows import list_published, list_rows, write_figure
 from svsa.cli import app
 from svsa.errors import ParameterError
+
+measure_datasheet = cache(measure.measure_datasheet)
 
 
 def test_torque_and_energy_of_the_leaf_spring_match_its_formula():

@@ -86,6 +86,7 @@ def assert_same_run(session: SimulatedSession, state: dict) -> None:
     assert state["sample"] == newest
 
 
+@pytest.mark.exhaustive
 @settings(max_examples=6, deadline=None)
 @given(scripts)
 def test_script_reproduces_the_configuration_and_samples_of_its_run(

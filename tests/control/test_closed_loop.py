@@ -21,6 +21,7 @@ from svsa.runs.command import Set
 from svsa.runs.run import Run
 from svsa.simulation.reference.kinds.sine import compute_sine
 from tests.actuators.prototype import DESIGN, NO_LOADS, K, integrate_ideal, move_plant, record
+from tests.exhaustive import exhaust
 
 GAINS_OF_POLES = {
     "the default poles": svsa.Gains.from_poles([-60.0] * 4, [-40.0] * 2),
@@ -63,7 +64,7 @@ def compute_departure(gains, period):
     )
 
 
-@pytest.mark.parametrize("name", GAINS_OF_POLES)
+@pytest.mark.parametrize("name", exhaust(GAINS_OF_POLES, ["the default poles"]))
 def test_errors_follow_the_roots_of_eq_25_with_an_exact_model(name):
     """Both errors at once, decoupled; the rest is due to the hold and decreases with the period."""
     gains = GAINS_OF_POLES[name]

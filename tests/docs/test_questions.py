@@ -106,6 +106,7 @@ def near(site: Path) -> dict[str, str]:
     return {name: read_page(site / name).text for name in names}
 
 
+@pytest.mark.exhaustive
 @pytest.mark.parametrize("question", QUESTIONS)
 def test_newcomer_question_is_answered_within_two_clicks(question, near):
     answer = QUESTIONS[question]
@@ -118,6 +119,7 @@ def read_target(site: Path, name: str, link: str) -> tuple[Path, str]:
     return site / unquote(parts.path).lstrip("/"), unquote(parts.fragment)
 
 
+@pytest.mark.exhaustive
 def test_every_link_of_the_site_has_a_target(site):
     pages = {path: path.read_text(encoding="utf-8") for path in site.rglob("*.html")}
     places = {path: set(IDENTIFIER.findall(text)) for path, text in pages.items()}
@@ -140,6 +142,7 @@ def test_formula_command_is_separated_from_the_next_letter(law):
     assert not re.search(r"\\q?quad[A-Za-z]", get_law(law).equation)
 
 
+@pytest.mark.exhaustive
 def test_formulas_are_rendered_without_a_script(site):
     """MathML: the site has no script for formulas, and must load none from elsewhere."""
     for path in (site / "laws").glob("*.html"):

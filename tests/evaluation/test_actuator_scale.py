@@ -83,6 +83,7 @@ def test_stiffness_covers_the_range_of_the_actuator():
     assert scale_stiffness(get_mechanism("sea"), 15.0) == 60.0
 
 
+@pytest.mark.exhaustive
 def test_trials_of_an_actuator_equal_single_runs():
     entry = build_entry("ndobc", "leaf_spring")
     summaries = TrialSet(5, 4, "leaf_spring").run(entry, lambda done: None)

@@ -19,6 +19,7 @@ from svsa.simulation.plant.loads.mass import MassLoad
 from svsa.simulation.plant.loads.pulse import PulseLoad
 from svsa.simulation.plant.loads.sine import SineLoad
 from svsa.simulation.reference.kinds import get_range
+from tests.exhaustive import exhaust
 
 COUNT = 400
 
@@ -86,7 +87,7 @@ def test_hidden_seed_follows_from_secret_and_protocol():
     assert all(0 <= seed < 2**63 for seed in seeds)
 
 
-@pytest.mark.parametrize("module", ["tuner", "tuned_law", "file", "cli"])
+@pytest.mark.parametrize("module", exhaust(["tuner", "tuned_law", "file", "cli"], ["tuner"]))
 def test_tuning_does_not_import_the_test_set(module):
     """The import contract forbids it; here a process verifies it."""
     code = f"import svsa.evaluation.tuning.{module}, sys; print(*sys.modules)"

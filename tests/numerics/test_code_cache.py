@@ -119,6 +119,7 @@ with watch_compilation(print):
 """
 
 
+@pytest.mark.exhaustive
 def test_read_only_cache_is_used(tmp_path: Path) -> None:
     """As in an image with a read-only file system, or with another user."""
     if shutil.which("bwrap") is None:

@@ -92,6 +92,7 @@ def test_systemd_accepts_the_unit() -> None:
     assert all("is not executable" in line for line in problems), done.stderr
 
 
+@pytest.mark.exhaustive
 def test_lab_runs_on_a_read_only_file_system(tmp_path: Path) -> None:
     """As in the containers: only the data folder and /tmp are writable."""
     script = """set -e

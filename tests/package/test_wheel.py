@@ -48,6 +48,7 @@ def metadata(wheel):
     return Parser().parsestr(wheel.read(name).decode())
 
 
+@pytest.mark.exhaustive
 def test_name_differs_from_the_other_project_on_the_index(metadata):
     assert metadata["Name"] == DISTRIBUTION == "svsa-lab"
     assert metadata["Version"] == svsa.__version__
@@ -55,6 +56,7 @@ def test_name_differs_from_the_other_project_on_the_index(metadata):
     assert citation["version"] == svsa.__version__, "set it to the version of pyproject.toml"
 
 
+@pytest.mark.exhaustive
 def test_types_parameters_page_and_rig_are_included(wheel):
     names = set(wheel.namelist())
     assert {
@@ -70,6 +72,7 @@ def test_types_parameters_page_and_rig_are_included(wheel):
     assert not [name for name in names if name.startswith("tests/") or "node_modules" in name]
 
 
+@pytest.mark.exhaustive
 def test_guide_is_served_by_the_installed_server(wheel, tmp_path):
     installed = tmp_path / "installed"
     command = [sys.executable, "-m", "pip", "install", "--quiet", "--no-deps", "--no-index"]
@@ -93,6 +96,7 @@ def test_guide_is_served_by_the_installed_server(wheel, tmp_path):
     assert {"tutorials/own_law.html", "reference/library.html", "searchindex.js"} <= guide
 
 
+@pytest.mark.exhaustive
 def test_base_install_requires_only_the_packages_of_the_library(metadata):
     asked = metadata.get_all("Requires-Dist")
     always = {Requirement(line).name for line in asked if "extra ==" not in line}

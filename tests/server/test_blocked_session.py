@@ -73,6 +73,7 @@ def test_every_request_is_answered_while_a_session_blocks() -> None:
         assert end_blocked(lab, signal.SIGINT) == 1
 
 
+@pytest.mark.exhaustive
 def test_sigterm_ends_a_server_whose_session_computes_indefinitely() -> None:
     with run_lab(program=PROGRAM) as lab:
         with blocked(lab, BLOCKING_WAKE):

@@ -59,6 +59,7 @@ def test_request_on_a_full_disk_is_rejected_and_succeeds_with_free_space(disk: P
         assert [*disk.rglob("*.tmp"), *disk.rglob("*.part")] == []
 
 
+@pytest.mark.exhaustive
 def test_recording_ended_by_a_full_disk_is_listed_as_failed_with_its_readable_part(
     disk: Path,
 ) -> None:
@@ -97,6 +98,7 @@ def test_full_disk_leaves_no_empty_secret(disk: Path) -> None:
     assert len(keep_secret(disk / "secret")) == SECRET_BYTES
 
 
+@pytest.mark.exhaustive
 def test_leaderboard_on_a_read_only_disk_reports_it(disk: Path) -> None:
     with run_lab_in_process(data=str(disk)) as running:
         # The catalogue's file stays open for writing: a second, read-only mount of the same disk.

@@ -28,6 +28,7 @@ from svsa.simulation.loop.lane import build_lane_state
 from svsa.simulation.loop.loop import decide, observe
 from svsa.simulation.plant.integration import integrate_period
 from svsa.simulation.plant.sensors import read_sensors
+from tests.exhaustive import exhaust
 
 SMOOTH_RIG = svsa.RIG.changed(encoders=None, torque_limits=False)
 SHORT_S = 1e-4
@@ -168,7 +169,7 @@ def test_joint_error_is_at_the_stability_boundary_of_the_linearized_tick():
         assert loop.radius < 1.0
 
 
-@pytest.mark.parametrize("law", list_law_names())
+@pytest.mark.parametrize("law", exhaust(list_law_names(), ["ndobc", "fl", "eso_saturated"]))
 def test_every_law_has_margins_or_is_unstable(law):
     """One function for all control laws: none of them switches at rest."""
     margins = compute_margins(build(law), 15.0, seeks_error=False)

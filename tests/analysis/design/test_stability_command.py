@@ -15,6 +15,7 @@ def run(*options: str) -> str:
     return result.stdout
 
 
+@pytest.mark.exhaustive
 def test_command_prints_json():
     reported = json.loads(run("--json", "--starts", "3"))
     at_15, at_60 = reported["stability"]

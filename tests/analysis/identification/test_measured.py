@@ -33,6 +33,7 @@ def samples():
     return found
 
 
+@pytest.mark.exhaustive
 def test_csv_file_gives_the_parameters_of_the_actuator(samples, tmp_path):
     names = ("time_s", "motor1_position_rad", "motor2_position_rad", "deflection_deg", *TORQUES)
     path = write(tmp_path / "mine.csv", samples, names, deflection_deg=180.0 / math.pi)

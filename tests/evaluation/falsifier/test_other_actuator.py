@@ -1,6 +1,7 @@
 """The falsifier on another actuator than the SVSA."""
 
 import numpy as np
+import pytest
 
 from svsa.control.installed import PAPERS_LAW
 from svsa.evaluation.falsifier.adversary import Adversary
@@ -34,6 +35,7 @@ QBMOVE = Adversary(
 )
 
 
+@pytest.mark.exhaustive
 def test_search_on_qbmove_returns_a_pulse_and_a_scenario_of_qbmove():
     """A pulse of more than half of the greatest torque; the error of NDOBC under it is smaller."""
     found = falsify(QBMOVE, runs=48)

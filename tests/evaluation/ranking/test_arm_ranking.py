@@ -48,6 +48,7 @@ def test_only_laws_that_take_the_feedforward_have_rows_with_it():
         assert not one.feedforward or get_law(one.law).takes_feedforward
 
 
+@pytest.mark.exhaustive
 def test_row_is_that_of_the_tuned_parameters_on_the_test_trials():
     controller, test = ArmController("pd", True), build_arm_test(SMALL)
     seen = []

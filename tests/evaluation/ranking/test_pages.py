@@ -17,6 +17,7 @@ from svsa.evaluation.ranking.publish import (
 )
 from svsa.evaluation.ranking.results import load_published
 from svsa.evaluation.ranking.table import format_success
+from tests.exhaustive import exhaust
 
 ROOT = Path(__file__).parents[3]
 _MARGINS = re.compile(r"\n## Margins about rest\n.*?`svsa margins \w+`\.", re.DOTALL)
@@ -40,7 +41,7 @@ def test_page_of_a_law_is_generated_from_its_file_and_the_results(law):
     assert not doi or f"[doi:{doi}](https://doi.org/{doi})" in page
 
 
-@pytest.mark.parametrize("law", ["fl", "eso_saturated"])
+@pytest.mark.parametrize("law", exhaust(["fl", "eso_saturated"], ["eso_saturated"]))
 def test_margins_of_a_page_are_the_computed_margins(law):
     assert build_margins(law) == read_margins(law)
 

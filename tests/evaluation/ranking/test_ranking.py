@@ -77,7 +77,7 @@ def test_ndobc_with_the_declared_gains_faults_at_one_sign_only():
     assert find_scenario(found.worst).title.startswith(rig.title)
 
 
-@pytest.mark.long
+@pytest.mark.exhaustive
 def test_row_has_the_results_of_single_runs():
     """Trials in a batch equal single runs; distributions and success bits are consistent."""
     entry = build_entry(DECLARED)

@@ -37,7 +37,7 @@ def test_table_of_results_measures_nothing(tmp_path):
         run("table", "--results", path)
 
 
-@pytest.mark.long
+@pytest.mark.exhaustive
 def test_row_is_measured_into_the_file_and_others_are_kept(tmp_path, monkeypatch):
     path = tmp_path / "kept.json"
     common = ("run", "--trials", 2, "--seed", 9, "--save", path)

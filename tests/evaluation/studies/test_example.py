@@ -27,6 +27,7 @@ def expect_same(one: pa.Table, other: pa.Table) -> None:
         np.testing.assert_array_equal(one[name].to_numpy(), other[name].to_numpy(), name)
 
 
+@pytest.mark.exhaustive
 def test_example_is_the_built_in_study_and_its_first_rows_are_reproduced_bit_for_bit():
     example = open_study(EXAMPLE)
     assert example.study == read_study("load", runs=256)[1]

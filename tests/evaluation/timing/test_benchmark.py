@@ -15,6 +15,7 @@ from svsa.actuators.signals import CHANNEL_INDEX, TORQUES
 from svsa.cli import app
 from svsa.evaluation.timing import batch_rates, bench_tick, benchmark, scipy_comparison
 from svsa.runs.run import Run
+from tests.exhaustive import exhaust
 
 RUNNER = CliRunner()
 TICKS = 8000
@@ -90,7 +91,7 @@ def test_run_that_ends_in_a_fault_counts_its_executed_part(monkeypatch) -> None:
     assert batch_rates.measure_effects(figure, 8, 2.0, 1)["ideal"] == 8.0
 
 
-@pytest.mark.long
+@pytest.mark.exhaustive
 def test_ratios_without_the_c_loop_are_unknown_with_a_reason(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
@@ -107,7 +108,7 @@ def test_ratios_without_the_c_loop_are_unknown_with_a_reason(
     assert "tests/benchmarks/loop.c" in answer.stderr
 
 
-@pytest.mark.parametrize("law", ["ndobc", "nmpc"])
+@pytest.mark.parametrize("law", exhaust(["ndobc", "nmpc"], ["ndobc"]))
 def test_reported_outcome_is_that_of_the_timed_ticks(law: str) -> None:
     """So that the timed ticks are those of a working law."""
     samples = svsa.simulate("4a", law, duration_s=6.0).samples

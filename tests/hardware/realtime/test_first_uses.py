@@ -30,6 +30,7 @@ from svsa.runs.paper import get_figure
 from svsa.simulation.plant.loads import LOADS
 from svsa.simulation.plant.loads.load import TIP
 from svsa.simulation.reference.kinds import POSITIONS, STIFFNESSES
+from tests.exhaustive import exhaust
 from tests.hardware.realtime.first_uses import Rehearsal, list_other_parameters
 from tests.hardware.wired_bench import WiredBench
 
@@ -37,7 +38,7 @@ FIGURE = get_figure("4a").build_configuration(load=False)
 OWN_PARAMETERS = list_other_parameters()
 
 
-@pytest.mark.parametrize("state", ["ready", "run"])
+@pytest.mark.parametrize("state", exhaust(["ready", "run"], ["run"]))
 def test_first_uses_load_nothing_in_a_tick(state: str) -> None:
     """Every law, also with other parameters, and every kind of command, in a new process."""
     program = [sys.executable, "-m", "tests.hardware.realtime.first_uses", state]

@@ -6,16 +6,14 @@ import sys
 
 import pytest
 
-from tests.exhaustive import exhaust
-
 SECONDS_EACH = (0.1, 0.3)
 """The first interrupts every function, most of them some hundred times."""
 CHECKED = {"NoneType", "Boolean", "Integer", "Float", "Array"}
 """Types that numba or `svsa.numerics.boxing` returns to Python with a check of every object."""
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("seconds", exhaust(SECONDS_EACH, shown=SECONDS_EACH[:1]))
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("seconds", SECONDS_EACH)
 def test_signals_interrupt_every_compiled_function_called_from_python(seconds):
     process = subprocess.run(
         [sys.executable, "-m", "tests.numerics.interruption.struck", str(seconds)],

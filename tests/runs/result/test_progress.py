@@ -46,6 +46,7 @@ def test_callback_receives_the_completed_share(law):
     assert shares[-1] == 1.0
 
 
+@pytest.mark.exhaustive
 def test_long_run_has_a_bar_on_a_terminal():
     assert "Simulating" in read_terminal(0.0)
     assert read_terminal(1000.0) == ""

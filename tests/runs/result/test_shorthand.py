@@ -116,6 +116,7 @@ with svsa.connect() as lab:
 """
 
 
+@pytest.mark.exhaustive
 def test_type_checker_finds_exactly_the_errors_of_a_script(tmp_path):
     script = tmp_path / "script.py"
     script.write_text(RIGHT + "".join(f"    {line}\n" for line in WRONG_LINES), encoding="utf-8")

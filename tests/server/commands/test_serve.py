@@ -76,6 +76,7 @@ def test_unwritable_data_folder_is_not_locked(tmp_path: Path) -> None:
     assert claim_data_folder(tmp_path / "file" / "lab") is None
 
 
+@pytest.mark.exhaustive
 @pytest.mark.skipif(sys.platform == "win32", reason="no such locks and modes")
 def test_files_of_a_class_are_private(tmp_path: Path) -> None:
     with run_lab("--class", data=str(tmp_path)):

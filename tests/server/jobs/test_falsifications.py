@@ -66,6 +66,7 @@ def test_search_is_followed_to_its_result_and_shown_in_a_session(lab, tmp_path):
     lab.delete(f"/api/v1/sessions/{seen.json()['session']}").raise_for_status()
 
 
+@pytest.mark.exhaustive
 def test_cancelled_search_keeps_its_worst_run(lab):
     name = lab.post(JOBS, json=KIND | {"text": PULL, "runs": 100_000}).json()["id"]
     refused = lab.get(f"{JOBS}/{name}/file")

@@ -14,7 +14,6 @@ from svsa.runs.records.catalogue.runs import Catalogue
 from svsa.runs.records.header import RecordHeader, read_header, write_header
 from svsa.runs.records.parquet import measure_bytes
 from svsa.runs.records.writer import write_record
-from tests.exhaustive import exhaust
 from tests.runs.records.records import add, build_header, build_samples
 from tests.waiting import PATIENCE_S
 
@@ -32,8 +31,8 @@ def work(folder: str, first: int, failures: "multiprocessing.Queue[str]") -> Non
         raise
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("hands", exhaust([1, 2], [1]))
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("hands", [1, 2])
 def test_processes_and_threads_share_a_folder(catalogue: Catalogue, hands: int) -> None:
     """Several processes next to this one, and several threads in each."""
     context = multiprocessing.get_context("spawn")
