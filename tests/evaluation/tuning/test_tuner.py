@@ -102,6 +102,7 @@ def test_ctrl_c_saves_the_best_candidate(tmp_path, monkeypatch):
     assert (tmp_path / "mine.toml").exists()
 
 
+@pytest.mark.exhaustive
 def test_poor_gains_are_improved_in_real_runs_below_the_noise_limit():
     tuned = tune(LAW, budget=16, present=build_design(8.0, 6.0), trials=8, validation=8)
     assert tuned.is_complete
@@ -165,6 +166,7 @@ def test_unsearchable_parameter_is_rejected(law, held, reported):
         tune(law, budget=1, held=held, **SHORT)
 
 
+@pytest.mark.exhaustive
 def test_file_names_its_source_and_configures_a_run(tmp_path):
     """FL and NDOBC are tuned in [gains] and [observer], others in a table of their own."""
     for law, section in (("ndobc", "gains"), (LAW, f"parameters.{LAW}")):

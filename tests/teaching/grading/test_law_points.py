@@ -30,6 +30,7 @@ def test_interval_of_the_points_is_that_of_their_mean():
     assert points == pytest.approx([1.5, 3.75, 2.25])
 
 
+@pytest.mark.exhaustive
 def test_trials_of_a_group_equal_single_runs(monkeypatch):
     monkeypatch.setattr(law_points, "BLOCK", 8)
     monkeypatch.setattr(law_points, "MOST_TRIALS", 8)
