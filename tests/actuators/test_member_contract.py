@@ -119,6 +119,7 @@ def run_with_packages(folder, script):
     return done.stdout.strip().split("\n")
 
 
+@pytest.mark.long
 def test_package_adds_an_actuator(tmp_path):
     names, found = run_with_packages(install_own_actuator(tmp_path), SCRIPT)
     assert set(names.split(",")) == {*NAMES, "cubic"}

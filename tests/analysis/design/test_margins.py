@@ -144,6 +144,7 @@ def test_simulation_is_stable_only_within_the_gain_margins(motor, side):
     assert grow_with(end / inward) > 1.0
 
 
+@pytest.mark.long
 def test_joint_error_is_at_the_stability_boundary_of_the_linearized_tick():
     c = build()
     found = find_joint_error(c, 15.0)

@@ -40,6 +40,7 @@ def build_adversary(**changes):
     return Adversary(**(given | changes))
 
 
+@pytest.mark.long
 def test_planted_weakness_is_found_and_shrunk():
     adversary = build_adversary()
     found = falsify(adversary, runs=4000)

@@ -64,6 +64,7 @@ def test_season_has_the_public_scenarios_and_its_own_trials():
     assert len(set(names)) == len(names) == season.run_count
 
 
+@pytest.mark.exhaustive
 def test_public_seed_gives_the_success_of_the_ranking():
     season = build_season(PUBLIC_SEED)
     season = season._replace(singles=season.singles[:1], trials=season.trials[:16])
@@ -129,6 +130,7 @@ def test_cancelled_measurement_has_no_standing_and_reports_its_progress():
     assert reported == [(count, season.run_count) for count in (1, 2, 3)]
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("short_season")
 def test_law_is_measured_once_and_listed_with_those_of_the_lab(tmp_path):
     file, folder = tmp_path / "mine.py", tmp_path / "board"
