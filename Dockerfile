@@ -1,9 +1,10 @@
-ARG BASE_IMAGE=docker.io/library/python:3.12.12-slim-bookworm
+ARG BASE_IMAGE=docker.io/library/python:3.12.12-slim-bookworm@sha256:593bd06efe90efa80dc4eee3948be7c0fde4134606dd40d8dd8dbcade98e669c
 FROM ${BASE_IMAGE} AS build
 ENV UV_SYSTEM_CERTS=1 NODE_OPTIONS=--use-system-ca
 RUN apt-get update -qq && apt-get install -y -qq --no-install-recommends binutils >/dev/null
 RUN python3 -m venv /opt/tools \
- && /opt/tools/bin/pip install --quiet --no-cache-dir --disable-pip-version-check uv cyclonedx-bom
+ && /opt/tools/bin/pip install --quiet --no-cache-dir --disable-pip-version-check \
+      uv==0.13.9 cyclonedx-bom==7.5.0
 WORKDIR /src
 COPY requirements.lock pyproject.toml README.md CHANGELOG.md CITATION.cff LICENSE ./
 COPY svsa svsa

@@ -6,6 +6,7 @@ PAGE := backend/svsa_server/page/index.html
 GUIDE := backend/svsa_server/guide
 PAGE_SOURCES := $(shell find frontend/web -path '*/node_modules' -prune -o -type f -print) \
   frontend/scene/svsa_scene/cameras.json
+UV := 0.13.9
 LOCKED_EXTRAS := server client bench plot nidaqmx pandas xarray cluster lti gym
 # Each test module in one process, in the order of tests/conftest.py: the browser tests are last.
 # Four processes on two cores, because many tests wait for a server or a browser.
@@ -122,7 +123,8 @@ lock: .venv/installed  ## write requirements.lock with the newest version of eve
 .venv/installed: requirements.lock pyproject.toml
 	@echo "Preparing the environment (once; a minute or two) …"
 	@test -x $(BIN)/python || $(PYTHON) -m venv .venv
-	@test -x $(BIN)/uv || $(BIN)/pip install --quiet --disable-pip-version-check uv
+	@$(BIN)/uv --version 2>&1 | grep -q "^uv $(UV) " || \
+	  $(BIN)/pip install --quiet --disable-pip-version-check uv==$(UV)
 	@$(BIN)/uv pip sync --quiet --compile-bytecode --require-hashes requirements.lock
 	@$(BIN)/uv pip install --quiet --no-deps --no-build-isolation --editable .
 	@touch $@
