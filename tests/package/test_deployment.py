@@ -38,6 +38,13 @@ def test_each_lab_extends_the_service_without_privileges(name: str) -> None:
     assert volumes <= {*read_compose(name)["volumes"]}
 
 
+@pytest.mark.parametrize("name", ["lab", "class"])
+def test_each_container_has_a_limit_of_memory_and_processes(name: str) -> None:
+    for service in read_compose(name)["services"].values():
+        if "extends" not in service:
+            assert {"mem_limit", "pids_limit"} <= {*service}
+
+
 @pytest.mark.parametrize("name", LABS)
 def test_documented_command_sets_the_required_variables(name: str) -> None:
     text = (DEPLOY / f"{name}.yaml").read_text(encoding="utf-8")
