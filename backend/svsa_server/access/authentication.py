@@ -3,6 +3,7 @@
 import asyncio
 import hashlib
 import hmac
+import secrets
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from http.cookies import CookieError, SimpleCookie
@@ -11,7 +12,12 @@ from weakref import WeakValueDictionary
 
 from starlette.datastructures import Headers
 
-from svsa_server.access.class_keys import ClassKeys, draw_rejoin_code
+from svsa_server.access.class_keys import (
+    ClassKeys,
+    Credential,
+    CredentialKind,
+    draw_rejoin_code,
+)
 from svsa_server.access.memberships import Membership, Memberships
 from svsa_server.access.people import People
 from svsa_server.access.roles import ANY_USER, INSTRUCTOR, Person, Role
@@ -19,6 +25,7 @@ from svsa_server.access.roles import ANY_USER, INSTRUCTOR, Person, Role
 COOKIE = "svsa_access"
 REFUSAL_DELAY_S = 0.5
 REMOVED = "The instructor has removed you from the class."
+LEFT = "You have left the class."
 T = TypeVar("T")
 
 AuthenticationKind = Literal["open", "secret", "class"]
@@ -118,7 +125,7 @@ class SecretAuthentication:
 class ClassAuthentication:
     """A class: students join with a name and the code, the instructor has a token.
 
-    Cookies and tokens are valid until the instructor removes the user.
+    Cookies and tokens are valid until their user leaves, or the instructor removes the user.
     """
 
     kind: AuthenticationKind = "class"
@@ -133,16 +140,18 @@ class ClassAuthentication:
         """Return the person of the cookie or token; None if unsigned, or if the person was
         removed.
         """
-        carried, membership = self._read(headers)
-        if carried == INSTRUCTOR or self.keys.is_instructor(read_bearer(headers)):
+        credential, membership = self._read(headers)
+        if self.keys.is_instructor(read_bearer(headers)):
             person = INSTRUCTOR
-        elif carried is None or membership is None or membership.is_ended:
+        elif credential is None or not self.members.is_valid(*credential):
             return None
+        elif membership is None:
+            person = credential.person
         else:
             member = membership.person
             # The role of an earlier cookie is an upper bound: a promotion does not raise it, and a
             # demotion lowers it.
-            person = member._replace(role=min(carried.role, member.role))
+            person = member._replace(role=min(credential.person.role, member.role))
         self.people.hear(person)
         return person
 
@@ -159,41 +168,75 @@ class ClassAuthentication:
 
     def log_in(self, secret: str) -> str | None:
         """Return the instructor's cookie for the instructor token."""
-        return self.keys.sign(INSTRUCTOR) if self.keys.is_instructor(secret.strip()) else None
+        if not self.keys.is_instructor(secret.strip()):
+            return None
+        return self.keys.sign(INSTRUCTOR, secrets.token_hex(8), "cookie")
+
+    def sign(self, person: Person, kind: CredentialKind = "cookie") -> str:
+        """Sign a cookie or token of a member, which is valid until the member leaves."""
+        membership = self.members.find(person.id)
+        return self.keys.sign(person, membership.login if membership else "", kind)
+
+    async def create_token(
+        self, person: Person, headers: Headers, role: Role
+    ) -> tuple[str, Person]:
+        """Create a token for a script; return it with the script's identity.
+
+        The script of an instructor is a member of its own, whose token ends with this login.
+        """
+        script = person._replace(role=role)
+        if person.role is Role.INSTRUCTOR:
+            credential, _ = self._read(headers)
+            script = await self.join(
+                f"{person.name}'s script", role, credential.login if credential else ""
+            )
+        return self.sign(script, "token"), script
+
+    async def leave(self, person: Person, headers: Headers) -> None:
+        """End the cookies, tokens and streams of this person."""
+        credential, _ = self._read(headers)
+        if credential is not None:
+            await asyncio.to_thread(self.members.end_login, person, credential.login)
+        self.people.dismiss(person)
 
     async def check_code(self, code: str) -> bool:
         """Whether this is the class code."""
         return await self._hash(self.keys.is_code, code)
 
-    async def join(self, name: str, role: Role) -> Person:
-        """Add a new person to the class."""
-        person = self.people.join(name, role)
-        await asyncio.to_thread(self.members.keep, Membership(person))
+    async def join(self, name: str, role: Role, made_by: str = "") -> Person:
+        """Add a new person to the class; a name that looks like that of a member gets a number."""
+        person = Person(f"p-{secrets.token_hex(6)}", name, role)
+        person = await asyncio.to_thread(
+            self.members.add, person, lambda number: f"{name} ({number})", made_by
+        )
+        self.people.hear(person)
         return person
 
     async def rejoin(self, rejoin_code: str) -> Membership | None:
-        """Return the user of a rejoin code; the name may now have a number."""
+        """Return the user of a rejoin code."""
         hashed = await self._hash(self.keys.hash_rejoin_code, rejoin_code)
-        found = self.members.find_returning(hashed)
-        if found is None or found.is_ended:
-            return found
-        person = self.people.enter(found.person)
-        if person != found.person:
-            found = found._replace(person=person)
-            await asyncio.to_thread(self.members.keep, found)
-        return found
+        return self.members.find_returning(hashed)
 
     async def renew_rejoin_code(self, person: Person) -> str | None:
         """Create a rejoin code for this user; the previous one becomes invalid.
 
         None for a user without a membership, or with a lower role than its own.
         """
-        found = self.members.find(person.id)
-        if found is None or found.person != person:
+        membership = self.members.find(person.id)
+        if membership is None or membership.person != person:
             return None
+        return await self.renew_rejoin_code_of(person.id)
+
+    async def renew_rejoin_code_of(self, person_id: str) -> str:
+        """Create a rejoin code for a member; the previous one becomes invalid.
+
+        Raises:
+            UnknownError: If there is no such member.
+        """
+        membership = self.members.get(person_id)
         code = draw_rejoin_code()
         hashed = await self._hash(self.keys.hash_rejoin_code, code)
-        await asyncio.to_thread(self.members.keep, found._replace(return_hash=hashed))
+        await asyncio.to_thread(self.members.keep, membership._replace(return_hash=hashed))
         return code
 
     async def set_removed(self, person_id: str, is_removed: bool) -> Person:
@@ -207,10 +250,15 @@ class ClassAuthentication:
             self.people.dismiss(person)
         return person
 
-    def _read(self, headers: Headers) -> tuple[Person | None, Membership | None]:
-        """Return the signed person with the current membership."""
-        carried = self.keys.read_person(read_bearer(headers) or _read_cookie(headers))
-        return carried, carried and self.members.find(carried.id)
+    def _read(self, headers: Headers) -> tuple[Credential | None, Membership | None]:
+        """Return the token or cookie with the current membership of its person."""
+        token = read_bearer(headers)
+        credential = (
+            self.keys.read(token, "token")
+            if token
+            else self.keys.read(_read_cookie(headers), "cookie")
+        )
+        return credential, credential and self.members.find(credential.person.id)
 
     async def _hash(self, work: Callable[[str], T], code: str) -> T:
         """Hash one code at a time, outside the event loop.

@@ -1,8 +1,8 @@
 """The class code and the instructor token: generated once, shown once, stored as hashes.
 
 The code is short enough to be read from a projection, so its hash is slow (scrypt); the token is
-256 random bits, for which a fast hash is sufficient. A cookie or bearer token contains name and
-role with a signature, and is invalid in other labs and after its expiry.
+256 random bits, for which a fast hash is sufficient. A cookie or bearer token contains name, role
+and login with a signature, and is invalid in other labs and after its expiry.
 """
 
 import base64
@@ -12,7 +12,7 @@ import json
 import os
 import secrets
 from pathlib import Path
-from typing import NamedTuple
+from typing import Literal, NamedTuple, get_args
 
 from itsdangerous import BadData, URLSafeTimedSerializer
 
@@ -25,6 +25,8 @@ SIGNED_AGE_S = 120 * 24 * 3600
 _LETTERS = "ABCDEFGHJKMNPQRSTUVWXYZ23456789"  # no letters that can be confused
 _CODE_LENGTH, _RETURN_CODE_LENGTH, _GROUP = 8, 12, 4
 _TOKEN_PREFIX = "svsa-instructor-"  # noqa: S105
+CredentialKind = Literal["cookie", "token"]
+_KINDS: tuple[CredentialKind, ...] = get_args(CredentialKind)
 _SCRYPT = {"n": 2**14, "r": 8, "p": 1}
 
 
@@ -33,6 +35,13 @@ class ShownOnce(NamedTuple):
 
     code: str
     instructor_token: str
+
+
+class Credential(NamedTuple):
+    """The content of a cookie or token: a person, and the login with which it ends."""
+
+    person: Person
+    login: str
 
 
 class ClassKeys:
@@ -54,7 +63,10 @@ class ClassKeys:
                 f"The keys of the class in {path} cannot be read ({error}): delete the file;"
                 " the next start creates new keys."
             ) from None
-        self._signer = URLSafeTimedSerializer(self._key, salt="svsa person")
+        # Different keys: a token is invalid as a cookie, and a cookie as a token.
+        self._signers = {
+            kind: URLSafeTimedSerializer(self._key, salt=f"svsa {kind}") for kind in _KINDS
+        }
 
     @classmethod
     def open(cls, folder: Path) -> tuple["ClassKeys", ShownOnce | None]:
@@ -100,19 +112,18 @@ class ClassKeys:
         """
         return _stretch(code, self._key.encode())
 
-    def sign(self, person: Person) -> str:
-        """Sign a person's id for a cookie or token."""
-        return str(self._signer.dumps([person.id, person.name, person.role.word]))
+    def sign(self, person: Person, login: str = "", kind: CredentialKind = "token") -> str:
+        """Sign a person with the login that ends this cookie or token."""
+        signed = [person.id, person.name, person.role.word, login]
+        return str(self._signers[kind].dumps(signed))
 
-    def read_person(self, signed: str) -> Person | None:
-        """Return the person of a signed token; None if this class did not sign it, or it
-        expired.
-        """
+    def read(self, signed: str, kind: CredentialKind) -> Credential | None:
+        """Read a cookie or token; None if this class did not sign it as such, or it expired."""
         if not signed or len(signed) > LONGEST_SIGNED:
             return None
         try:
-            name_, shown, role = self._signer.loads(signed, max_age=SIGNED_AGE_S)
-            return Person(name_, shown, Role[role.upper()])
+            id_, name, role, login = self._signers[kind].loads(signed, max_age=SIGNED_AGE_S)
+            return Credential(Person(id_, name, Role[role.upper()]), login)
         except (BadData, ValueError, KeyError, TypeError, AttributeError):
             return None
 

@@ -6,7 +6,6 @@ loopback host (this rejects a web site whose name resolves to 127.0.0.1).
 
 import asyncio
 from collections.abc import Awaitable, Callable
-from contextlib import AbstractContextManager
 from functools import partial
 
 from starlette.datastructures import Headers
@@ -14,6 +13,7 @@ from starlette.exceptions import HTTPException
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from svsa_server.access.authentication import (
+    LEFT,
     REMOVED,
     Authentication,
     ClassAuthentication,
@@ -89,7 +89,7 @@ class AccessGuard:
             and person
             and isinstance(self._authentication, ClassAuthentication)
         ):
-            await self._connect(scope, receive, send, self._authentication.people.connected(person))
+            await self._connect(scope, receive, send, person, self._authentication)
         else:
             await self._app(scope, _bound_body(scope, receive), send)
 
@@ -98,10 +98,11 @@ class AccessGuard:
         scope: Scope,
         receive: Receive,
         send: Send,
-        connection: AbstractContextManager[asyncio.Event],
+        person: Person,
+        authentication: ClassAuthentication,
     ) -> None:
-        """Serve a WebSocket until it ends, or its person is removed from the class."""
-        with connection as dismissed:
+        """Serve a WebSocket until it ends, or its person leaves or is removed from the class."""
+        with authentication.people.connected(person) as dismissed:
             served = asyncio.ensure_future(self._app(scope, receive, send))
             removed = asyncio.create_task(dismissed.wait())
             try:
@@ -114,7 +115,9 @@ class AccessGuard:
         if is_served:
             served.result()
         else:
-            await send({"type": "websocket.close", "code": 1008, "reason": REMOVED})
+            is_removed = authentication.is_removed(Headers(scope=scope))
+            reason = REMOVED if is_removed else LEFT
+            await send({"type": "websocket.close", "code": 1008, "reason": reason})
 
     def _check_place(self, scope: Scope) -> None:
         if not is_same_origin(scope) and find_path(scope) not in FROM_ELSEWHERE:

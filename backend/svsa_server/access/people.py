@@ -2,13 +2,11 @@
 
 import asyncio
 import contextlib
-import itertools
-import secrets
 import time
 from collections import OrderedDict, defaultdict
 from collections.abc import Callable, Iterator
 
-from svsa_server.access.roles import Person, Role
+from svsa_server.access.roles import Person
 
 HERE_S = 60.0
 MAX_KNOWN = 1000
@@ -21,20 +19,6 @@ class People:
         self._clock = clock
         self._heard: OrderedDict[str, tuple[Person, float]] = OrderedDict()
         self._connected: defaultdict[str, set[asyncio.Event]] = defaultdict(set)
-
-    def join(self, name: str, role: Role) -> Person:
-        """Add a new person; a name that is in use gets a number."""
-        return self.enter(Person(f"p-{secrets.token_hex(6)}", name, role))
-
-    def enter(self, person: Person) -> Person:
-        """Register a person, new or returning, under a name that is not in use."""
-        name = person.name
-        taken = {one.name for one in self.list_here() if one.id != person.id}
-        numbered = (f"{name} ({number})" for number in itertools.count(2))
-        free = next(one for one in itertools.chain([name], numbered) if one not in taken)
-        person = person._replace(name=free)
-        self.hear(person)
-        return person
 
     def hear(self, person: Person) -> None:
         """Note a request of a person."""

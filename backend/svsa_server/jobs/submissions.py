@@ -15,12 +15,14 @@ class Task(NamedTuple):
         name: Name of the law.
         law: Text of the law, None for the laws of the lab.
         author: Author of the law.
+        person: Id of the author in a class.
     """
 
     board: Path
     name: str
     law: bytes | None
     author: str = ""
+    person: str = ""
 
 
 def measure_laws(folder: JobFolder, task: Task) -> bool:
@@ -35,7 +37,8 @@ def measure_laws(folder: JobFolder, task: Task) -> bool:
         folder.report(first + done, first + total)
 
     if task.law is not None:
-        entry = submit(board, task.name, task.law, folder.report, folder.is_cancelled, task.author)
+        by = (task.author, task.person)
+        entry = submit(board, task.name, task.law, folder.report, folder.is_cancelled, *by)
         if entry is None:
             return False
     return measure_missing(board, report_missing, folder.is_cancelled)

@@ -15,7 +15,7 @@ from joserfc.jwk import KeySet
 from joserfc.jws import extract_compact
 
 from svsa_server.access.authentication import REMOVED, ClassAuthentication
-from svsa_server.access.memberships import Membership
+from svsa_server.access.names import is_reserved
 from svsa_server.access.roles import Person, Role
 from svsa_server.lti.keys import PlatformKeys, open_key
 from svsa_server.lti.launch import Launch, read_launch
@@ -121,10 +121,22 @@ class LtiTool:
         known, role = authentication.members.find(id_), _ROLES[launch.role]
         if known is not None and known.is_ended:
             raise LaunchError(REMOVED)
-        before = known or Membership(Person(id_, launch.name, role))
-        person = authentication.people.enter(before.person._replace(role=role))
-        if known is None or person != known.person:
-            await asyncio.to_thread(authentication.members.keep, before._replace(person=person))
+        members = authentication.members
+        if known is None:
+            # The platform's name is never rejected; a reserved one, or that of another member, is
+            # shown with the end of the person's id.
+            marked = f"{launch.name} ({id_[-6:]})"
+            name = marked if is_reserved(launch.name) else launch.name
+            person = await asyncio.to_thread(
+                members.add,
+                Person(id_, name, role),
+                lambda number: marked if number == 2 else f"{marked} {number}",
+            )
+        else:
+            person = known.person._replace(role=role)
+            if person != known.person:
+                await asyncio.to_thread(members.keep, known._replace(person=person))
+        authentication.people.hear(person)
         return person
 
     def find_landing(self, launch: Launch, base: str, course: Collection[str]) -> str:

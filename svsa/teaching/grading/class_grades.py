@@ -87,6 +87,7 @@ def _describe(path: Path, book: Book) -> GradedSubmission:
         given = book.find(digest)
     except ParameterError as error:
         return GradedSubmission(person, exercise, person, None, str(error))
+    given = given and given.changed(person=person)
     return GradedSubmission(person, exercise, submission.student, given, book.find_refusal(digest))
 
 

@@ -38,6 +38,7 @@ class Grade(Judgement):
     """
 
     student: str = quantity("", "Student")
+    person: str = quantity("", "Id of the student: name of the submission's file", default="")
     submission: str = quantity("", "SHA-256 of the submission")
     max_points: Number = quantity("", "Maximum points", gt=0)
     runs: tuple[VerifiedRun, ...] = quantity("", "Verified runs", default=())

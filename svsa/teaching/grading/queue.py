@@ -42,12 +42,13 @@ def grade_file(
     digest, name = submission.digest, submission.exercise
     before = book.find(digest) if book and not again else None
     if before is not None:
-        return before
+        return before.changed(person=path.stem)
     try:
         if name not in exercises:
             bound = f"one of {', '.join(exercises)}"
             raise ParameterError(Violation("exercise", name, "", bound), file=str(path))
         given = grade(submission, exercises[name], runs, book.secret if book else None, report)
+        given = given.changed(person=path.stem)
     except SvsaError as error:
         if book is not None:
             book.refuse(digest, str(error))

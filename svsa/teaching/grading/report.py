@@ -2,6 +2,7 @@
 
 import csv
 import io
+import unicodedata
 from collections.abc import Sequence
 from html import escape
 from statistics import mean, median
@@ -20,7 +21,9 @@ td.number, th.number { text-align: right; white-space: nowrap; font-variant-nume
 small { overflow-wrap: anywhere; }
 .feedback { white-space: pre-wrap; overflow-wrap: anywhere; }
 """
-HEADINGS = ("student", "exercise", "points", "max_points", "submission", "seed", "version")
+HEADINGS = (
+    "student", "exercise", "points", "max_points", "submission", "seed", "version", "person",
+)  # fmt: skip
 
 
 def write_csv(grades: Sequence[Grade]) -> str:
@@ -34,7 +37,7 @@ def write_csv(grades: Sequence[Grade]) -> str:
         row = (
             *(_guard(word) for word in (grade.student, grade.exercise)),
             f"{grade.points:g}", f"{grade.max_points:g}", grade.submission, grade.seed or "",
-            grade.version,
+            grade.version, _guard(grade.person),
         )  # fmt: skip
         table.writerow([*row, *(points.get(name, "") for name in names)])
     return text.getvalue()
@@ -59,8 +62,9 @@ def _name(grade: Grade, at: int) -> str:
 
 
 def _guard(word: str) -> str:
-    """Prefix a text that a spreadsheet would read as a formula."""
-    return f"'{word}" if word.startswith(("=", "+", "-", "@", "\t", "\r")) else word
+    """Prefix a text that a spreadsheet would read as a formula, also in full-width signs."""
+    is_formula = unicodedata.normalize("NFKC", word).lstrip().startswith(("=", "+", "-", "@"))
+    return f"'{word}" if is_formula or word.startswith(("\t", "\r")) else word
 
 
 def _write_summary(grades: Sequence[Grade]) -> str:
@@ -75,8 +79,10 @@ def _write_summary(grades: Sequence[Grade]) -> str:
 
 def _write_table(grades: Sequence[Grade]) -> str:
     rows = "".join(
-        f'<tr><td><a href="#grade-{at}">{escape(one.student)}</a></td>'
-        f"<td>{escape(one.exercise)}</td>{_write_points(one.points, one.max_points)}</tr>"
+        f'<tr><td><a href="#grade-{at}">{escape(one.student)}</a>'
+        f" <small>{escape(one.person)}</small></td>"
+        f"<td>{escape(one.exercise)}</td>"
+        f"{_write_points(one.points, one.max_points)}</tr>"
         for at, one in enumerate(grades)
     )
     return _write_rows('<th>Student</th><th>Exercise</th><th class="number">Points</th>', rows)

@@ -61,6 +61,7 @@ class Entry(Checked):
     author: Author = quantity(
         "", "Author of a submitted law, or empty", max_length=MAX_NAME, default=""
     )
+    person: str = quantity("", "Id of the author in a class, or empty", max_length=60, default="")
     is_installed: Flag = quantity("", "Whether the law is installed in the lab")
     entered: str = quantity("", "Time of the measurement, UTC, ISO 8601")
     suite: str = quantity("", "Version of the trials")
@@ -174,6 +175,7 @@ def submit(
     report: ReportProgress = lambda done, total: None,
     is_cancelled: Callable[[], bool] = lambda: False,
     author: str = "",
+    person: str = "",
 ) -> Entry | None:
     """Measure a submitted law in isolation and save its entry; return None if cancelled.
 
@@ -189,7 +191,8 @@ def submit(
     found = measure_standing(board.season, build_isolated_runner(source), report, is_cancelled)
     if found is None:
         return None
-    return board.keep(build_entry(key, name, False, found.standing, author), found.worst.torques)
+    entry = build_entry(key, name, False, found.standing, author, person)
+    return board.keep(entry, found.worst.torques)
 
 
 def build_isolated_runner(source: bytes, place: Place = confine) -> RunScenario:
@@ -198,13 +201,19 @@ def build_isolated_runner(source: bytes, place: Place = confine) -> RunScenario:
 
 
 def build_entry(
-    key: str, name: str, is_installed: bool, standing: Standing, author: str = ""
+    key: str,
+    name: str,
+    is_installed: bool,
+    standing: Standing,
+    author: str = "",
+    person: str = "",
 ) -> Entry:
     """Build the entry of a law that was just measured with this version of the lab."""
     return Entry(
         key=key,
         name=name,
         author=author,
+        person=person,
         is_installed=is_installed,
         entered=datetime.now(UTC).isoformat(timespec="seconds"),
         suite=PROTOCOL,

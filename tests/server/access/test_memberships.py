@@ -141,10 +141,8 @@ def test_websocket_of_a_removed_user_is_closed_with_the_reason(tmp_path: Path) -
             sent.append(message)
             accepted.set()
 
-        headers = [
-            (b"host", b"127.0.0.1"),
-            (b"cookie", f"svsa_access={keys.sign(ADA)}".encode()),
-        ]
+        cookie = f"svsa_access={keys.sign(ADA, kind='cookie')}"
+        headers = [(b"host", b"127.0.0.1"), (b"cookie", cookie.encode())]
         scope = {"type": "websocket", "path": "/viser/lab", "headers": headers}
         serving = asyncio.create_task(guard(scope, accepted.wait, send))  # type: ignore[arg-type]
         await accepted.wait()
@@ -186,13 +184,13 @@ def test_rejoin_code_grants_no_additional_permission(classroom: Classroom) -> No
     assert (refused.status_code, read_kind(refused)) == (401, "removed")
 
 
-def test_returning_user_whose_name_is_taken_gets_a_number(classroom: Classroom) -> None:
+def test_returning_user_keeps_the_name(classroom: Classroom) -> None:
     ada, code = join(classroom, "Euler")
     ada.post("/api/v1/leave").raise_for_status()
-    classroom.join("Euler")
+    assert read_person(classroom.join("Euler"))["name"] == "Euler (2)"
     back = classroom.open_browser()
-    assert rejoin(back, code).json()["name"] == "Euler (2)"
-    assert read_person(back)["name"] == "Euler (2)"
+    assert rejoin(back, code).json()["name"] == "Euler"
+    assert read_person(back)["name"] == "Euler"
 
 
 def test_guesses_of_rejoin_codes_are_limited_like_joins(tmp_path: Path) -> None:

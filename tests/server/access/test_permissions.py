@@ -168,9 +168,9 @@ def build_identities(
         members.keep(Membership(person))
     members.set_ended("p-3", True)
     members.keep(Membership(people["lowered"]._replace(role=Role.OBSERVER)))
-    signed = {name: keys.sign(person) for name, person in people.items()}
-    forged = ClassKeys.open(folder)[0].sign(INSTRUCTOR)
-    unknown = keys.sign(Person("p-9", "No user", Role.OPERATOR))
+    signed = {name: keys.sign(person, kind="cookie") for name, person in people.items()}
+    forged = ClassKeys.open(folder)[0].sign(INSTRUCTOR, kind="cookie")
+    unknown = keys.sign(Person("p-9", "No user", Role.OPERATOR), kind="cookie")
     altered = signed["student"][:-2] + ("AA" if signed["student"][-2:] != "AA" else "BB")
     return {
         "no login": Identity([], None),
@@ -182,8 +182,10 @@ def build_identities(
         "observer": Identity(keep(signed["observer"]), Role.OBSERVER),
         "member who became an observer": Identity(keep(signed["lowered"]), Role.OBSERVER),
         "student": Identity(keep(signed["student"]), Role.OPERATOR),
-        "script of a student": Identity(carry(signed["student"]), Role.OPERATOR),
-        "instructor": Identity(keep(keys.sign(INSTRUCTOR)), Role.INSTRUCTOR),
+        "script of a student": Identity(carry(keys.sign(STUDENT)), Role.OPERATOR),
+        "cookie as a token": Identity(carry(signed["student"]), None),
+        "token as a cookie": Identity(keep(keys.sign(STUDENT)), None),
+        "instructor": Identity(keep(keys.sign(INSTRUCTOR, kind="cookie")), Role.INSTRUCTOR),
         "script of the instructor": Identity(carry(token), Role.INSTRUCTOR),
     }
 

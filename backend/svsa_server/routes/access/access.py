@@ -80,8 +80,9 @@ async def join(
 ) -> JoinState | JSONResponse:
     """Join the class with a name and its code; the answer sets a cookie that identifies the user.
 
-    A name that is already in use gets a number. `rejoin_code` is returned once: with it the user
-    can log in again from any browser.
+    A name that looks like that of another member gets a number, also if that member has left.
+    Names of roles and of the lab are rejected. `rejoin_code` is returned once: with it the user can
+    log in again from any browser.
     """
     authentication = find_class(request)
     address = read_address(request.scope)
@@ -96,7 +97,7 @@ async def join(
     person = await authentication.join(wanted.name, Role[wanted.role.upper()])
     code = await authentication.renew_rejoin_code(person)
     assert code is not None  # noqa: S101  who has just joined has a membership
-    set_cookie(request, response, authentication.keys.sign(person))
+    set_cookie(request, response, authentication.sign(person))
     return JoinState(**_describe(request, person).model_dump(), rejoin_code=code)
 
 
@@ -120,7 +121,7 @@ async def rejoin(
         return answer_problem(401, "wrong_code", "No member of this class has this rejoin code.")
     if membership.is_ended:
         return answer_problem(401, "removed", REMOVED)
-    set_cookie(request, response, authentication.keys.sign(membership.person))
+    set_cookie(request, response, authentication.sign(membership.person))
     return _describe(request, membership.person)
 
 
@@ -140,10 +141,13 @@ async def renew_rejoin_code(request: Request, person: NamedPerson) -> RejoinCode
 @router.post("/leave", status_code=204)
 @allow(OBSERVER)
 async def leave(request: Request, person: NamedPerson) -> Response:
-    """Log out: delete the cookie of this browser."""
+    """Log out: in a class, end the user's cookies, script tokens and streams.
+
+    The instructor's other logins remain; the scripts of this login end.
+    """
     authentication = _find_authentication(request)
     if isinstance(authentication, ClassAuthentication):
-        authentication.people.forget(person)
+        await authentication.leave(person, request.headers)
     response = Response(status_code=204)
     response.delete_cookie(COOKIE, path=_find_root(request))
     return response
@@ -158,14 +162,13 @@ async def create_token(
 ) -> TokenState:
     """Create a bearer token, returned once: a script logs in as its owner, or as an observer.
 
+    It is no cookie, and ends when its owner leaves the class.
     A script requests control like a user. Scripts of an instructor are operators, too.
     """
     authentication = find_class(request)
     role = min(person.role, Role[wanted.role.upper()])
-    script = person._replace(role=role)
-    if person.role is Role.INSTRUCTOR:
-        script = await authentication.join(f"{person.name}'s script", role)
-    return TokenState(token=authentication.keys.sign(script), name=script.name, role=role.word)
+    token, script = await authentication.create_token(person, request.headers, role)
+    return TokenState(token=token, name=script.name, role=role.word)
 
 
 def _count(request: Request, kind: Kind, who: str) -> JSONResponse | None:

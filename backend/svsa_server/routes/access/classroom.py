@@ -18,11 +18,13 @@ from svsa_server.access.roles import Person, Role
 from svsa_server.config import is_loopback
 from svsa_server.routes.depends import REFUSALS, NamedPerson
 from svsa_server.routing import build_router
+from svsa_server.schemas.access.access import RejoinCode
 from svsa_server.schemas.access.classroom import (
     BroadcastState,
     ClassCode,
     ClassSession,
     ClassState,
+    Member,
     MemberState,
     PersonPatch,
     PersonState,
@@ -32,7 +34,7 @@ from svsa_server.sessions.laboratory import SHARED_SESSION, Laboratory
 
 router = build_router("/class", tags=["class"], responses={409: REFUSALS[409]})
 _SCALE = 6
-Member = Annotated[
+MemberId = Annotated[
     str,
     Owned("person"),
     Path(alias="person", description="Id of a person", examples=["p-0123456789ab"]),
@@ -66,7 +68,7 @@ async def read_class(request: Request, person: NamedPerson) -> ClassState:
 @allow(INSTRUCTOR_ONLY)
 async def change_person(
     request: Request,
-    name: Member,
+    name: MemberId,
     patch: Annotated[PersonPatch, Body(examples=[{"removed": False}])],
 ) -> MemberState:
     """Remove a user from the class, or restore a removed one.
@@ -80,6 +82,30 @@ async def change_person(
         for hosted in _find_laboratory(request).sessions.values():
             hosted.release_lease_of(changed.id)
     return _build_member(changed)
+
+
+@router.get("/people")
+@allow(INSTRUCTOR_ONLY)
+async def list_members(request: Request) -> list[Member]:
+    """List every member by name and id, also those who are not active or were removed."""
+    return [
+        Member(**_build_member(one.person).model_dump(), removed=one.is_ended)
+        for one in find_class(request).members.list_all()
+    ]
+
+
+@router.post(
+    "/people/{person}/rejoin-code",
+    status_code=201,
+    responses={404: REFUSALS[404]},
+)
+@allow(INSTRUCTOR_ONLY)
+async def renew_rejoin_code_of(request: Request, name: MemberId) -> RejoinCode:
+    """Create a rejoin code for a member who has lost cookie and code; reported once.
+
+    The member's former code becomes invalid.
+    """
+    return RejoinCode(rejoin_code=await find_class(request).renew_rejoin_code_of(name))
 
 
 @router.post("/code", status_code=201)

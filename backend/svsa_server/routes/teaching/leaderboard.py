@@ -94,7 +94,7 @@ async def submit_law(
         return SubmissionState(key=key, job=None)
     await asyncio.to_thread(check_isolation)
     board = await _open_board(request)
-    task = Task(board.folder, wanted.name, law, person.name or wanted.author)
+    task = Task(board.folder, wanted.name, law, person.name or wanted.author, person.id)
     return SubmissionState(key=key, job=_begin(request, person, task))
 
 

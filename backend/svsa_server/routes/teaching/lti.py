@@ -91,7 +91,7 @@ async def launch(request: Request) -> Response:
         platform=platform.issuer, place=place, problem=None,
     )  # fmt: skip
     response = RedirectResponse(f"{base}{place}", 303)
-    set_cookie(request, response, authentication.keys.sign(person))
+    set_cookie(request, response, authentication.sign(person))
     response.delete_cookie(COOKIE, path=f"{request.scope.get('root_path', '')}/lti")
     return response
 

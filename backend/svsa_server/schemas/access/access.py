@@ -6,13 +6,14 @@ from pydantic import AfterValidator, BaseModel, Field
 
 from svsa.inputs.checked import Checked, quantity
 from svsa_server.access.authentication import AuthenticationKind
+from svsa_server.access.names import clean_name
 from svsa_server.access.roles import RoleName
-from svsa_server.leases.lease import LONGEST_NAME, READABLE, check_printable
+from svsa_server.leases.lease import LONGEST_NAME, READABLE
 
 PersonName = Annotated[
     str,
     Field(max_length=LONGEST_NAME, json_schema_extra={"pattern": READABLE}),
-    AfterValidator(check_printable),
+    AfterValidator(clean_name),
 ]
 
 
@@ -27,7 +28,7 @@ class LoginRequest(Checked):
 class JoinRequest(Checked):
     """Join the class."""
 
-    name: PersonName = quantity("", "Name that all users see, in printable characters")
+    name: PersonName = quantity("", "Name that all users see, not that of a role")
     code: Annotated[str, Field(max_length=100)] = quantity("", "The class code")
     role: Literal["observer", "operator"] = quantity(
         "", "Role; an observer can watch and stop only", default="operator"
@@ -64,7 +65,7 @@ class AccessState(BaseModel):
         " class: with a name and the class code"
     )
     inside: bool = Field(description="Whether the caller is authenticated")
-    id: str = Field(description="Name of the person in a class; otherwise empty")
+    id: str = Field(description="Id of the person in a class; otherwise empty")
     name: str = Field(description="Name of the person in a class; otherwise empty")
     role: RoleName | None = Field(description="Role of the caller; null if not admitted")
     removed: bool = Field(

@@ -14,6 +14,12 @@ class MemberState(BaseModel):
     role: RoleName
 
 
+class Member(MemberState):
+    """A member, active or not."""
+
+    removed: bool = Field(description="Whether the instructor has removed this person")
+
+
 class PersonPatch(Checked):
     """Changes of a person."""
 

@@ -73,6 +73,7 @@ class RunSummary(BaseModel):
     notes: str
     revision: str = Field(description="Version of name, tags and notes, for If-Match")
     session: str
+    owner: str = Field(description="Id of the person who recorded it in a class; otherwise empty")
     created: str = Field(description="UTC, ISO 8601")
     version: str = Field(description="Version of svsa that recorded it")
     state: RunState = Field(

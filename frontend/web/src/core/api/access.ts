@@ -41,8 +41,13 @@ export function readAudit({ person, kind, onlyRefused, page, until }: AuditQuery
   if (onlyRefused) query.set("refused", "true");
   return request("get", `class/audit?${query}`, undefined, WORK_TIMEOUT_MS) as Promise<AuditPage>;
 }
+export type Member = Schemas["Member"];
+/** Every member, for the instructor. */
+export const readMembers = () => request("get", "class/people") as Promise<Member[]>;
 const personPath = (id: string) => `class/people/${encodeURIComponent(id)}`;
 const setRemoved = (id: string, removed: boolean) => request("patch", personPath(id), { removed });
+export const renewRejoinCodeOf = (id: string) =>
+  request("post", `${personPath(id)}/rejoin-code`) as Promise<Schemas["RejoinCode"]>;
 export const removePerson = (id: string) => setRemoved(id, true);
 export const restorePerson = (id: string) => setRemoved(id, false);
 export const renewCode = () => request("post", "class/code") as Promise<ClassCode>;

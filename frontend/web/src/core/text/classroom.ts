@@ -2,7 +2,8 @@
 export const classroomText = {
   classroom: {
     title: "Join the class",
-    explanation: "All users of the class see your name.",
+    explanation:
+      "All users of the class see your name. If it looks like that of another member, it gets a number.",
     code: "Class code",
     join: "Join",
     token: "Instructor token",
@@ -54,6 +55,13 @@ export const classroomText = {
       "They are removed, but can join again under another name with the class code: make a new code to prevent this.",
     restore: (name: string) => `Restore ${name}`,
     restoreShort: "Restore",
+    members: {
+      title: "All members",
+      hint: "A member who has lost the rejoin code and the login of the browser gets a new code.",
+      renew: (name: string) => `New rejoin code for ${name}`,
+      renewShort: "New rejoin code",
+      codeOnce: (name: string) => `Shown once. Give it to ${name}:`,
+    },
     queue: "Waits for control",
     queueEmpty: "The queue is empty.",
     give: (name: string) => `Give control to ${name}`,
@@ -135,6 +143,8 @@ export const classroomText = {
     scriptHint: "A script with this token acts as you: it must also request control",
     scriptOnce: "Shown once. Set it as SVSA_SECRET in the environment of the script:",
     leave: "Leave the class",
+    leaveHint:
+      "Ends your login in every browser and your script tokens; with the rejoin code you return",
   },
 } as const;
 

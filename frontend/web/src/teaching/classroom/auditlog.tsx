@@ -38,7 +38,7 @@ function Line({ line, now }: { line: AuditLine; now: Date }) {
           {formatTime(line.time, now)}
         </time>
       </td>
-      <th scope="row" class="strong">
+      <th scope="row" class="strong" title={line.person ?? undefined}>
         {line.name ?? words.stranger}
       </th>
       <td class="audit-what" title={line.path ?? undefined}>

@@ -22,6 +22,7 @@ import { Panel, PanelButton } from "../../core/widgets/panel";
 import { PlaceLink } from "../../runs/list/place";
 import { AuditLog } from "./auditlog";
 import { rejoinCode } from "./join";
+import { Members } from "./members";
 import { People, Removed, Sessions, Waiting } from "./people";
 
 const words = text.classroom;
@@ -116,6 +117,7 @@ function Inside() {
           end={(name) => void attempt(() => endSession(name))}
         />
       )}
+      {isInstructor.value && <Members attempt={(act) => void attempt(act)} />}
       {isInstructor.value && (
         <AuditLog
           isOpen={isAudited.value}
@@ -154,6 +156,7 @@ function Inside() {
         <button
           type="button"
           class="button"
+          title={isInstructor.value ? undefined : words.leaveHint}
           onClick={() =>
             void attempt(async () => {
               await leave();

@@ -32,6 +32,7 @@ export function People({
         <tr key={one.id}>
           <th scope="row">
             {one.name} {one.id === access.value?.id && <small>({words.you})</small>}
+            <small class="block">{one.id}</small>
           </th>
           <td>{words.roles[one.role]}</td>
           <td>{one.sees.map((name) => (name === SHARED ? words.shared : name)).join(", ")}</td>
@@ -72,7 +73,9 @@ export function Removed({
       <ul class="stack">
         {removed.map((one) => (
           <li key={one.id} class="row">
-            <span class="grow">{one.name}</span>
+            <span class="grow">
+              {one.name} <small>{one.id}</small>
+            </span>
             <button
               type="button"
               class="button is-small"

@@ -41,7 +41,7 @@ function Row({ entry }: { entry: BoardEntry }) {
           {entry.is_installed ? (
             <span title={words.baselineHint}>{words.baseline}</span>
           ) : entry.author ? (
-            words.by(entry.author)
+            <span title={entry.person}>{words.by(entry.author)}</span>
           ) : (
             words.submittedLaw
           )}

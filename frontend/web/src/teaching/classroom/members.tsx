@@ -1,0 +1,67 @@
+import { useSignal } from "@preact/signals";
+import { type Member, readMembers, renewRejoinCodeOf } from "../../core/api/access";
+import { text } from "../../core/text/en";
+
+const words = text.classroom.members;
+
+/**
+ * All members, active or not, for the instructor; read when it is opened. A member who has lost
+ * cookie and rejoin code gets a new code.
+ */
+export function Members({ attempt }: { attempt: (act: () => Promise<unknown>) => void }) {
+  const members = useSignal<Member[] | null>(null);
+  const renewed = useSignal<{ member: Member; code: string } | null>(null);
+  const toggle = () => {
+    renewed.value = null;
+    if (members.peek() !== null) members.value = null;
+    else
+      attempt(async () => {
+        members.value = await readMembers();
+      });
+  };
+  const renew = (member: Member) =>
+    attempt(async () => {
+      const { rejoin_code: code } = await renewRejoinCodeOf(member.id);
+      renewed.value = { member, code };
+    });
+  return (
+    <section class="stack">
+      <h3>
+        <button
+          type="button"
+          class="quiet audit-title"
+          aria-expanded={members.value !== null}
+          onClick={toggle}
+        >
+          {words.title}
+        </button>
+      </h3>
+      {members.value !== null && <p class="hint">{words.hint}</p>}
+      {renewed.value !== null && (
+        <p role="status">
+          {words.codeOnce(renewed.value.member.name)}{" "}
+          <code class="class-return">{renewed.value.code}</code>
+        </p>
+      )}
+      {members.value !== null && (
+        <ul class="stack class-people">
+          {members.value.map((member) => (
+            <li key={member.id} class="row">
+              <span class="grow">
+                {member.name} <small>{member.id}</small>
+              </span>
+              <button
+                type="button"
+                class="button is-small"
+                aria-label={words.renew(member.name)}
+                onClick={() => renew(member)}
+              >
+                {words.renewShort}
+              </button>
+            </li>
+          ))}
+        </ul>
+      )}
+    </section>
+  );
+}
