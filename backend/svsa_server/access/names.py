@@ -62,7 +62,7 @@ def clean_name(name: str) -> str:
     if unicodedata.normalize("NFKC", name)[0] in _FORMULA:
         raise ValueError(f"a text that does not begin with one of {' '.join(_FORMULA)}")
     if is_reserved(name):
-        raise ValueError("your own name: this one stands for a role, the lab or an id")
+        raise ValueError("a name that does not stand for a role, the lab or an id")
     return name
 
 

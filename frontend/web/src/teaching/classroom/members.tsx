@@ -48,7 +48,7 @@ export function Members({ attempt }: { attempt: (act: () => Promise<unknown>) =>
           {members.value.map((member) => (
             <li key={member.id} class="row">
               <span class="grow">
-                {member.name} <small>{member.id}</small>
+                {member.name} <small class="nowrap">{member.id}</small>
               </span>
               <button
                 type="button"

@@ -32,7 +32,7 @@ export function People({
         <tr key={one.id}>
           <th scope="row">
             {one.name} {one.id === access.value?.id && <small>({words.you})</small>}
-            <small class="block">{one.id}</small>
+            <small class="block nowrap">{one.id}</small>
           </th>
           <td>{words.roles[one.role]}</td>
           <td>{one.sees.map((name) => (name === SHARED ? words.shared : name)).join(", ")}</td>
@@ -74,7 +74,7 @@ export function Removed({
         {removed.map((one) => (
           <li key={one.id} class="row">
             <span class="grow">
-              {one.name} <small>{one.id}</small>
+              {one.name} <small class="nowrap">{one.id}</small>
             </span>
             <button
               type="button"

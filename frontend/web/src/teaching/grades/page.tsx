@@ -86,7 +86,7 @@ function Table() {
                   >
                     {student.name}
                   </a>
-                  <small class="block">{student.person}</small>
+                  <small class="block nowrap">{student.person}</small>
                 </th>
                 {columns.value.map(({ name }) => (
                   <Cell key={name} student={student} exercise={name} />
