@@ -174,6 +174,15 @@ def test_leaving_ends_the_instructor_s_login_and_its_scripts_only(tmp_path: Path
     assert not Memberships(tmp_path / FILE).is_valid(INSTRUCTOR, login)
 
 
+def test_list_of_runs_has_the_id_of_their_owner(classroom: Classroom) -> None:
+    ada = classroom.join("Hopper")
+    path = f"/api/v1/sessions/{ada.post('/api/v1/sessions', json={}).json()['session']}"
+    ada.post(path + "/recording", json={}).raise_for_status()
+    ada.delete(path + "/recording").raise_for_status()
+    owners = {run["owner"] for run in ada.get("/api/v1/runs").json()["runs"]}
+    assert owners == {read_person(ada)["id"]}
+
+
 def test_instructor_admits_a_member_without_cookie_and_code(classroom: Classroom) -> None:
     ada, instructor = classroom.join("Galois"), classroom.log_in()
     person = read_person(ada)

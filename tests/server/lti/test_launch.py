@@ -192,6 +192,18 @@ def test_launch_is_valid_once_and_in_its_browser(launcher, platform):
     assert "nonce" in replayed.text
 
 
+@pytest.mark.parametrize("name", ["Instructor", "lnstructor", "Ad\u0430 Byron", "...", "=1+1"])
+def test_name_of_the_platform_is_never_rejected_but_marked_if_it_misleads(launcher, name):
+    launcher.launch(sub="user-byron", name="Ada Byron")
+    for sub in ("user-90", "user-91"):
+        launcher.client.cookies.clear()
+        assert launcher.launch(sub=f"{sub}{name}", name=name).status_code == 303
+        person = launcher.read_access()
+        assert person["name"] != "Instructor"
+        is_misleading = name not in ("...", "=1+1") or sub == "user-91"
+        assert person["name"] == (f"{name} ({person['id'][-6:]})" if is_misleading else name)
+
+
 def test_removed_user_is_not_launched_again(launcher, lab, data):
     launcher.launch(sub="user-66", name="Eve")
     eve = launcher.read_access()["id"]

@@ -1,5 +1,7 @@
 """Grades over REST: all of a class for its instructor, their own for students."""
 
+import csv
+
 import pytest
 
 from svsa.teaching.course.progress import ProgressStore
@@ -56,6 +58,8 @@ def test_instructor_grades_and_each_student_sees_their_own_grade_only(classroom)
 
     lines = instructor.get(GRADES, params={"format": "csv"}).text.splitlines()
     assert [line.split(",")[0] for line in lines] == ["student", "Ada", "Bob"]
+    persons = [row["person"] for row in csv.DictReader(lines)]
+    assert persons == [find_id(ada), find_id(bob)]
     page = instructor.get(GRADES, params={"format": "html"}).text
     assert "Ada" in page
     assert "Bob" in page
