@@ -1,15 +1,20 @@
-"""Compile in the background what users may select: the laws, and the loop of other actuators."""
+"""Compile in child processes: at the start what every session needs, in the background what users
+may select, the laws and the loop of other actuators.
+"""
 
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
 from svsa.actuators.installed import list_mechanism_names
 from svsa.actuators.parameters import SVSA
+from svsa.cli import prepare
 from svsa.control.installed import PAPERS_LAW, get_law, is_usable, list_law_names
 from svsa.numerics.compilation import is_compiled_before
+from svsa.numerics.separate_compilation import can_store, compile_in_children, describe_end
+from svsa.simulation.loop.loop import advance
 from svsa_server.compiled_loops import LOWEST_PRIORITY, is_compiled_for
 
 OTHER = next(name for name in list_mechanism_names() if name != SVSA)
@@ -18,7 +23,36 @@ PREPARE = (
     f"import os; os.nice({LOWEST_PRIORITY}); from svsa.cli import prepare;"
     f" prepare(); prepare([{PAPERS_LAW!r}], {OTHER!r})"
 )
+COMPILE_FIRST = "from svsa.cli import main; main()", "compile"
 END_S = 2.0
+
+
+def prepare_apart(
+    report: Callable[[str], None], laws: tuple[str, ...] = (), actuator: str = SVSA
+) -> None:
+    """Load the loop and laws, compiled in a child process before if the cache does not have them.
+
+    Args:
+        report: Receives the reason if a child fails now or later; this process compiles then.
+        laws: Names of laws; none: all installed laws.
+        actuator: The actuator, as for `prepare`.
+    """
+    code, names = 0, laws or tuple(filter(is_usable, list_law_names()))
+    is_stored = is_compiled_before(advance) and is_compiled_for(actuator, names[0])
+    is_stored = is_stored and all(_is_compiled(get_law(name).control) for name in names)
+    if not is_stored and can_store(advance):
+        # It writes to the console of this process, as `prepare` does.
+        command = [sys.executable, "-c", *COMPILE_FIRST, *laws, "--actuator", actuator]
+        code = subprocess.run(command, stdin=subprocess.DEVNULL, check=False).returncode  # noqa: S603
+    if code == 0:
+        compile_in_children(report)
+    else:
+        report(
+            f"The process that compiles the control loop has failed: {describe_end(code, '')}."
+            " The server compiles it, and keeps the memory of the compiler, up to 0.5 GB."
+        )
+    prepare(laws or None, actuator)
+    compile_in_children(report)
 
 
 def _is_compiled(control: Any) -> bool:

@@ -16,7 +16,6 @@ from rich.console import Console
 from uvicorn.config import LOGGING_CONFIG
 
 from svsa.actuators.parameters import get_mechanism_name
-from svsa.cli import prepare
 from svsa.control.installed import BASELINE, PAPERS_LAW
 from svsa.errors import ParameterError, StateError, SvsaError, Violation
 from svsa.hardware.file import read_bench
@@ -29,7 +28,7 @@ from svsa.teaching.course.file import read_course
 from svsa_server.access.class_keys import FILE, ClassKeys, ShownOnce
 from svsa_server.access.connections import BoundHttp, BoundWebSocket
 from svsa_server.access.origin import EVERYWHERE
-from svsa_server.commands.compiling import compile_laws
+from svsa_server.commands.compiling import compile_laws, prepare_apart
 from svsa_server.commands.console import HINT, watch_keyboard
 from svsa_server.config import Settings
 
@@ -135,9 +134,10 @@ def run_server(
     claim = claim_data_folder(find_data_folder())
     # The loop of a bench cannot wait for the compiler: all laws are compiled before it starts.
     if bench is None:
-        prepare((PAPERS_LAW, BASELINE))
+        prepare_apart(print_line, (PAPERS_LAW, BASELINE))
     else:
-        prepare(actuator=get_mechanism_name(read_bench_design(read_bench(bench)).actuator))
+        actuator = get_mechanism_name(read_bench_design(read_bench(bench)).actuator)
+        prepare_apart(print_line, actuator=actuator)
         # Otherwise imported at the first record, which would hold back the server for 0.1 s.
         import_module("pyarrow.parquet")
     keys, reported = ClassKeys.open(find_data_folder()) if config.classroom else (None, None)

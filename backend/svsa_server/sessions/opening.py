@@ -17,7 +17,7 @@ from svsa.runs.configuration import Configuration, Lane
 from svsa.runs.experiment import build_default_load
 from svsa.runs.records.resimulation import check_simulated, read_origin
 from svsa.simulation.plant.loads.paper import PaperLoad
-from svsa_server.compiled_loops import compile_arm, compile_for
+from svsa_server.compiled_loops import compile_arm, compile_for, compile_law
 from svsa_server.jobs.falsifications import read_found
 from svsa_server.jobs.queue import Job
 from svsa_server.schemas.lab.opening import (
@@ -84,6 +84,8 @@ async def open_session(app: FastAPI, wanted: SessionRequest, owner: str) -> Host
             configuration = tried.changed(loads=(load,), comparisons=())
         case FromFalsification():
             configuration = _build_found(app.state.jobs.get(wanted.id, "falsification"))
+    for law in dict.fromkeys(lane.law for lane in configuration.lanes):
+        await compile_law(law)
     return laboratory.create(configuration, owner)
 
 

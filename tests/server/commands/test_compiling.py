@@ -9,6 +9,8 @@ import pytest
 from svsa_server.commands import compiling
 from svsa_server.commands.compiling import compile_laws
 from svsa_server.compiled_loops import is_compiled_for
+from tests.benchmarks.attacks import read_memory_mb
+from tests.lab import run_lab
 from tests.waiting import wait_until
 
 WAIT = "import time; time.sleep(600)"
@@ -72,3 +74,14 @@ def test_program_compiles_all_laws_and_the_loop_of_other_actuators():
     )
     assert done.returncode == 0, done.stderr
     assert is_compiled_for(compiling.OTHER, "ndobc")
+
+
+@pytest.mark.exhaustive
+def test_server_that_has_compiled_is_as_small_as_one_that_has_loaded_its_code(tmp_path):
+    """The compiler would leave 200 MB or more; 40 MB are left for what differs between starts."""
+    sizes_mb = []
+    for _ in range(2):
+        with run_lab(cache=str(tmp_path)) as lab:
+            lab.client.post("/api/v1/sessions", json={"law": "lqi"}).raise_for_status()
+            sizes_mb.append(read_memory_mb(lab))
+    assert sizes_mb[0] - sizes_mb[1] < 40.0

@@ -6,32 +6,14 @@ rest of a session, which needs about 0.1 MB.
 
 import pytest
 
-from svsa.runs.session.journal import HISTORY_TICKS
 from tests.benchmarks.attacks import read_memory_mb
-from tests.lab import Lab, run_lab
+from tests.benchmarks.memory import end_sessions, open_sessions
+from tests.lab import run_lab
 
 SESSIONS = 48
 LARGEST_SESSION_MB = 8.0
 KEPT_MB = 16.0
 """Bound of what 48 ended sessions leave, MB: free lists of the allocator, two sessions' worth."""
-STEP_TICKS = 8192
-
-
-def open_sessions(lab: Lab, count: int, **wanted: object) -> list[str]:
-    """Open paused sessions with a history that is full."""
-    paths = []
-    for _ in range(count):
-        opened = lab.client.post("/api/v1/sessions", json={"figure": "4a"} | wanted)
-        paths.append(f"/api/v1/sessions/{opened.raise_for_status().json()['session']}")
-        lab.client.post(paths[-1] + "/pause").raise_for_status()
-        for _ in range(HISTORY_TICKS // STEP_TICKS):
-            lab.client.post(paths[-1] + "/step", json={"ticks": STEP_TICKS}).raise_for_status()
-    return paths
-
-
-def end_sessions(lab: Lab, paths: list[str]) -> None:
-    for path in paths:
-        lab.client.delete(path).raise_for_status()
 
 
 @pytest.mark.exhaustive

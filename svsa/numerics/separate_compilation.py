@@ -1,0 +1,139 @@
+"""Compilation in a child process that ends, because a process keeps the memory of its compiler.
+
+A server that has compiled the loop itself has 0.2 to 0.5 GB more resident memory until it ends. The
+child stores the code in the cache, from which the server loads it. If it cannot, the reason is
+reported and the function is compiled in the server.
+"""
+
+import os
+import pickle
+import signal
+import subprocess
+import sys
+from collections.abc import Callable
+from importlib import import_module
+from threading import Lock
+from typing import Any
+
+from numba.core.errors import NumbaError
+from numba.core.serialize import dumps
+
+from svsa.numerics.code_cache import SharedCache
+
+CHILD = (
+    "import pickle, sys; sys.path[:] = pickle.load(sys.stdin.buffer);"
+    " from svsa.numerics.separate_compilation import compile_request; compile_request()"
+)
+_INVALID_FUNCTION = 3
+"""Exit code of the child if the compiler rejects the function, which the parent reports itself."""
+_MEMORY = "The server keeps the memory of the compiler, up to 0.5 GB, until it ends."
+
+_one_at_a_time = Lock()
+_reports: list[Callable[[str], None]] = []
+"""Called with the reason if a child has failed; empty if this process compiles itself."""
+
+
+def compile_in_children(report: Callable[[str], None]) -> None:
+    """Compile functions in child processes from now on; `report` receives the reason if one fails.
+
+    Functions are compiled in this process, and reported once, if the cache cannot be written.
+    """
+    _reports[:] = [report]
+
+
+def describe_end(code: int, errors: str) -> str:
+    """Describe why a compiling process has failed.
+
+    Args:
+        code: Its exit code; −n if signal n has ended it.
+        errors: What it wrote to its standard error.
+    """
+    if code < 0:
+        name = signal.Signals(-code).name
+        killed = "it was killed, probably because the memory was exhausted"
+        return killed if name == "SIGKILL" else f"it was ended by {name}"
+    lines = errors.strip().splitlines()
+    return lines[-1] if lines else f"it ended with exit code {code}"
+
+
+def prepare_code(dispatcher: Any, signature: Any) -> None:
+    """Let a child compile a function into the cache, if this process uses children and needs it.
+
+    Args:
+        dispatcher: The compiled function, found by name in its module.
+        signature: Types of the arguments, as for numba's `compile`.
+    """
+    if not _reports or _is_available(dispatcher, signature):
+        return
+    # The child finds neither functions of a script nor those that are built on demand.
+    name = dispatcher.py_func.__module__, dispatcher.py_func.__qualname__
+    if _find_function(*name) is not dispatcher:
+        return
+    with _one_at_a_time:
+        if not _reports or _is_available(dispatcher, signature):
+            return
+        if not can_store(dispatcher):
+            _stop_children(dispatcher)
+            return
+        try:
+            ended = subprocess.run(  # noqa: S603  this program itself
+                [sys.executable, "-c", CHILD],
+                input=pickle.dumps(sys.path) + dumps(name) + dumps(signature),
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.PIPE,
+                check=False,
+            )
+            code, errors = ended.returncode, ended.stderr.decode(errors="replace")
+        except (OSError, TypeError, pickle.PickleError) as error:
+            code, errors = 1, str(error)
+        if code == _INVALID_FUNCTION or (code == 0 and _is_available(dispatcher, signature)):
+            return
+        if code == 0:
+            _stop_children(dispatcher)
+            return
+        _reports[0](
+            f"The process that compiles {name[1]} has failed: {describe_end(code, errors)}."
+            f" {name[1]} is compiled in the server instead. {_MEMORY}"
+        )
+
+
+def can_store(dispatcher: Any) -> bool:
+    """Whether the cache of a compiled function exists and is writable."""
+    cache = dispatcher._cache
+    return isinstance(cache, SharedCache) and os.access(cache.cache_path, os.W_OK)
+
+
+def _stop_children(dispatcher: Any) -> None:
+    """Compile in this process from now on: no child can store its code."""
+    report = _reports.pop()
+    folder = getattr(dispatcher._cache, "cache_path", "the cache")
+    report(
+        f"Compiled code cannot be stored in {folder}: control laws are compiled in the server."
+        f" {_MEMORY} Make the folder writable, free disk space, or set SVSA_CACHE to another"
+        " folder."
+    )
+
+
+def _is_available(dispatcher: Any, signature: Any) -> bool:
+    """Whether the function is compiled or stored for these types."""
+    arguments = getattr(signature, "args", signature)
+    if tuple(arguments) in dispatcher.overloads:
+        return True
+    cache = dispatcher._cache
+    if not isinstance(cache, SharedCache):
+        return False
+    return cache._index_key(signature, dispatcher.targetctx.codegen()) in cache.list_types()
+
+
+def _find_function(module: str, name: str) -> Any:
+    return getattr(sys.modules.get(module), name, None)
+
+
+def compile_request() -> None:
+    """Compile the function that the parent has written to standard input, into the cache."""
+    module, name = pickle.load(sys.stdin.buffer)  # noqa: S301  written by the parent
+    import_module(module)
+    try:
+        _find_function(module, name).compile(pickle.load(sys.stdin.buffer))  # noqa: S301
+    except NumbaError:
+        raise SystemExit(_INVALID_FUNCTION) from None

@@ -1,0 +1,64 @@
+"""A function is compiled in a child process and loaded from the cache; if that fails, here."""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+PROGRAM = """
+from svsa.numerics import separate_compilation
+from svsa.numerics.compilation import watch_compilation
+from svsa.numerics.trigonometry import cos, sin
+
+separate_compilation.CHILD = {child} or separate_compilation.CHILD
+separate_compilation.compile_in_children(print)
+names = []
+with watch_compilation(names.append):
+    assert abs(cos(0.0) - 1.0) + abs(sin(0.0)) == 0.0
+print("compiled here:", "cos" in names)
+"""
+KILL = "import os, signal; os.kill(os.getpid(), signal.SIGKILL)"
+KILLED, STORED = "killed, probably because the memory was exhausted", "cannot be stored in"
+
+
+def run_program(cache: Path, child: str = "", before: tuple[str, ...] = ()) -> list[str]:
+    """Run the program with a cache; return the lines that it prints."""
+    command = [*before, sys.executable, "-c", PROGRAM.format(child=repr(child))]
+    environment = os.environ | {"SVSA_CACHE": str(cache)}
+    ran = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    assert ran.returncode == 0, ran.stderr
+    return ran.stdout.splitlines()
+
+
+def test_function_is_compiled_in_a_child_and_loaded(tmp_path):
+    assert run_program(tmp_path) == ["compiled here: False"]
+
+
+@pytest.mark.parametrize(
+    ("child", "reason", "count"),
+    [
+        (KILL, KILLED, 2),
+        ("import os; os.abort()", "ended by SIGABRT", 2),
+        ("raise OSError('No space left on device')", "OSError: No space left on device", 2),
+        ("pass", STORED, 1),
+    ],
+)
+@pytest.mark.exhaustive
+def test_failed_child_is_explained_and_replaced(child, reason, count, tmp_path):
+    *messages, last = run_program(tmp_path, child)
+    assert last == "compiled here: True"
+    assert len(messages) == count
+    assert all(reason in message and "in the server" in message for message in messages)
+
+
+@pytest.mark.exhaustive
+def test_cache_that_cannot_be_written_is_reported_once(tmp_path):
+    if shutil.which("bwrap") is None:
+        pytest.skip("bwrap is not installed")
+    read_only = ("bwrap", "--dev-bind", "/", "/", "--ro-bind", str(tmp_path), str(tmp_path))
+    message, last = run_program(tmp_path, before=read_only)
+    assert STORED in message
+    assert last == "compiled here: True"
