@@ -243,7 +243,8 @@ class AppliedAt:
 class SessionConnection(Remote):
     """A session, by its name.
 
-    `applied_at` is the time at which the last command was applied; None before the first.
+    `applied_at` is the time at which the last command of the run was applied; None before the
+    first.
     """
 
     __slots__ = ("applied_at", "connection", "name")
@@ -277,7 +278,6 @@ class SessionConnection(Remote):
             The session's state, or a load with the tick at which it was added.
         """
         state = self.connection.call(method, self.path + path, body)
-        past = [one for one in state.get("events", ()) if one["tick"] <= state["tick"]]
-        newest = past[-1] if past else state
-        self.applied_at = AppliedAt(newest["tick"], newest["time_s"])
+        command = state.get("last_command", state)
+        self.applied_at = AppliedAt(command["tick"], command["time_s"]) if command else None
         return state

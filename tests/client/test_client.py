@@ -47,6 +47,19 @@ def test_settings_are_read_back_with_the_time_of_the_change(lab: Lab) -> None:
             assert (session.applied_at.tick, session.applied_at.time_s) == (250, 0.25)
 
 
+def test_time_of_a_change_is_not_that_of_another_event(lab: Lab) -> None:
+    with lab.new_session(load=True) as session:
+        session.pause()
+        assert session.applied_at is None
+        session.law = "fl"
+        applied_at = session.applied_at
+        session.run_until(5.1)
+        assert session.read_state()["events"][-1]["kind"] == "load_on"
+        assert session.applied_at == applied_at
+        session.law = "fl"
+        assert session.applied_at == applied_at
+
+
 def test_unambiguous_values_are_accepted_and_others_named(lab: Lab) -> None:
     with lab.new_session("4A", load=False, effects="rig", comparisons="fl") as session:
         assert session.effects == svsa.RIG

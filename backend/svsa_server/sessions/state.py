@@ -15,6 +15,7 @@ from svsa.runs.metrics import Metrics
 from svsa.runs.records.header import BranchPoint
 from svsa.runs.records.recorder import Recorder
 from svsa.runs.run import Run
+from svsa.runs.session.journal import Journal
 from svsa.runs.session.session import Session
 from svsa.simulation.plant.effects import find_preset
 from svsa.simulation.plant.load_table import ScheduledLoad
@@ -25,7 +26,13 @@ from svsa_server.runs.lanes import build_window, list_ended_windows, list_sessio
 from svsa_server.schemas.lab.actuator import summarize_actuator
 from svsa_server.schemas.lab.gain import GainsState, Root
 from svsa_server.schemas.lab.lease import ControlState, QueueState, WaitingState
-from svsa_server.schemas.lab.session import BranchState, LoadState, SessionProgress, SessionState
+from svsa_server.schemas.lab.session import (
+    BranchState,
+    CommandState,
+    LoadState,
+    SessionProgress,
+    SessionState,
+)
 from svsa_server.schemas.lab.setting import ArmSetupState, ConfigurationState
 from svsa_server.schemas.runs.fault import build_session_fault
 from svsa_server.schemas.runs.lane import LaneState
@@ -86,6 +93,7 @@ def build_state(hosted: HostedSession, since_tick: int = 0) -> SessionState:
         session=session.name,
         instance=hosted.instance,
         revision=hosted.revision,
+        last_command=_build_last_command(session.journal),
         branch_of=_build_branch(session.journal.branch_of),
         note=hosted.note,
         exercise=hosted.before_exercise and hosted.before_exercise.exercise,
@@ -122,6 +130,13 @@ def build_queue(lease: ControlLease) -> QueueState | None:
         locked=lease.is_locked,
         idle_s=lease.idle_s,
     )
+
+
+def _build_last_command(journal: Journal) -> CommandState | None:
+    for command in journal.commands[-1:]:
+        time_s = command.tick * journal.run.period_s
+        return CommandState(kind=command.kind, tick=command.tick, time_s=time_s)
+    return None
 
 
 def _build_branch(branch_of: BranchPoint | None) -> BranchState | None:

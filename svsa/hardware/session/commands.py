@@ -42,12 +42,12 @@ class BenchCommands:
         """Whether the loop has not answered yet: later samples are not read meanwhile."""
         return self._pending > 0
 
-    def change(self, command: Command) -> None:
-        """Send a command."""
+    def change(self, command: Command) -> Command:
+        """Send a command, and return it with the tick of the loop."""
         self._journal.check(command)
         if isinstance(command, ApplyLoad):
             check_loads((command.argument,))
-        self._journal.enter(self._give(self._complete(command)))
+        return self._journal.enter(self._give(self._complete(command)))
 
     def patch(self, build: Callable[[Configuration], Command]) -> None:
         """Call `change` after the loop has answered earlier changes; no effect if nothing would

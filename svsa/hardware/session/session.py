@@ -307,9 +307,9 @@ class BenchSession:
         self.report.take(reported)
         return answer
 
-    def change(self, command: Command) -> None:
-        """Apply a command at the tick reported by the loop."""
-        self._commands.change(command)
+    def change(self, command: Command) -> Command:
+        """Apply a command at the tick reported by the loop, and return it with this tick."""
+        return self._commands.change(command)
 
     def set(self, command: Command) -> None:
         """Apply a command unless nothing would change."""

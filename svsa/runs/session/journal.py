@@ -100,8 +100,8 @@ class Journal:
         if command.kind == "comparisons" and self.recorder is not None:
             raise StateError("A recording has the same lanes throughout: stop it first.")
 
-    def enter(self, command: Command) -> None:
-        """Apply a command to the run at its tick; if the run rejects it, nothing changes."""
+    def enter(self, command: Command) -> Command:
+        """Apply a command to the run at its tick, and return it; if rejected, nothing changes."""
         loads = {load.number: load for load in self.run.loads}
         before = self.run.configuration
         answer = self.run.change(command)
@@ -123,6 +123,7 @@ class Journal:
                 self.version += 1
             case _:
                 self.log(command.kind, describe_change(command, list_laws(before)))
+        return command
 
     def _follow(self, command: Command) -> None:
         """Give lanes the past that they continue; in a new window metrics restart."""

@@ -119,10 +119,13 @@ class Session(Protocol):
         """Run some ticks before they are due, if the speed is infinite."""
         ...
 
-    def change(self, command: Command) -> None:
+    def change(self, command: Command) -> Command:
         """Apply a command at the current tick, not at its own; if rejected, nothing changes.
 
         A reference that is already followed is restarted with a blend.
+
+        Returns:
+            The command with the tick at whose beginning it takes effect.
 
         Raises:
             ParameterError: If the value is invalid.

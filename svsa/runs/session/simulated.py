@@ -164,10 +164,10 @@ class SimulatedSession:
         if self.run.fault is not None:
             self.clock.stop()
 
-    def change(self, command: Command) -> None:
-        """Apply a command at the current tick."""
+    def change(self, command: Command) -> Command:
+        """Apply a command at the current tick, and return it with this tick."""
         self.journal.check(command)
-        self.journal.enter(command.at(self.run.tick))
+        return self.journal.enter(command.at(self.run.tick))
 
     def set(self, command: Command) -> None:
         """Apply a command unless nothing would change."""

@@ -1,5 +1,7 @@
 """The loads of a session: added, listed, read, removed; no load or recording during a fault."""
 
+import pytest
+
 from tests.lab import Lab
 
 PUSH = {"kind": "push", "torque_nm": [1.0, 0.0, 0.0], "hold_s": 60.0}
@@ -19,6 +21,26 @@ def test_added_load_has_an_id_and_an_address(lab: Lab) -> None:
     assert [load["id"] for load in lab.client.get(loads).json()][1:] == [added["id"]]
     lab.client.delete(answer.headers["Location"]).raise_for_status()
     assert lab.client.get(answer.headers["Location"]).status_code == 404
+
+
+def test_added_load_has_the_tick_of_its_command(lab: Lab) -> None:
+    """Not that of another event or of the newest load, as of a push that is sent again."""
+    lab.load_figure(law="fl")
+    lab.client.post(f"{lab.session}/pause").raise_for_status()
+    lab.client.put(f"{lab.session}/law", json={"law": "ndobc"}).raise_for_status()
+    added = []
+    for load in ({"kind": "paper"}, PUSH, {"kind": "paper", "start_s": 100.0}, PUSH):
+        tick = lab.client.post(f"{lab.session}/step", json={"ticks": 7}).json()["tick"]
+        added.append(lab.client.post(f"{lab.session}/loads", json=load).raise_for_status().json())
+        assert (added[-1]["tick"], added[-1]["time_s"]) == (tick, pytest.approx(tick / 1000))
+        assert added[-1]["load"]["kind"] == load["kind"]
+        newest = {"kind": "load", "tick": tick, "time_s": added[-1]["time_s"]}
+        assert lab.read()["last_command"] == newest
+    assert added[3]["id"] == added[1]["id"]
+    assert [load["start_s"] for load in added] == [load["time_s"] for load in added[:2]] + [
+        100.0,
+        added[1]["time_s"],
+    ]
 
 
 def test_repeated_manual_load_is_one_load(lab: Lab) -> None:

@@ -75,13 +75,12 @@ def apply_load(
             f"Session {session.name} is in a fault and takes no load: reset it, or clear the fault"
             " of a bench, and add the load then."
         )
-    session.change(ApplyLoad(argument=load, joint=joint))
-    state = build_state(hosted)
-    added = state.loads[-1]
-    past = [event for event in state.events if event.tick <= state.tick]
-    newest = past[-1] if past else state
+    command = session.change(ApplyLoad(argument=load, joint=joint))
+    # A push that is sent again is its active load, which has the new value and may not be the last.
+    added = next(held for held in reversed(build_state(hosted).loads) if held.load == load)
     response.headers["Location"] = f"{API}/sessions/{session.name}/loads/{added.id}"
-    return AddedLoad(**dict(added), tick=newest.tick, time_s=newest.time_s)
+    time_s = command.tick * session.run.period_s
+    return AddedLoad(**dict(added), tick=command.tick, time_s=time_s)
 
 
 @router.get("/{load_id}")

@@ -74,7 +74,15 @@ class LoadState(BaseModel):
 class AddedLoad(LoadState):
     """A load, and when it was added."""
 
-    tick: int = Field(description="Tick at whose beginning the load was added")
+    tick: int = Field(description="Tick at whose beginning the request takes effect")
+    time_s: float
+
+
+class CommandState(BaseModel):
+    """A command, and when it took effect."""
+
+    kind: str = Field(description="Changed setting, load, unload or stop")
+    tick: int = Field(description="Tick at whose beginning it took effect")
     time_s: float
 
 
@@ -122,6 +130,9 @@ class SessionState(SessionProgress):
         " session is opened again under the same name"
     )
     revision: str = Field(description="Version of settings and loads, for If-Match")
+    last_command: CommandState | None = Field(
+        description="Newest change of a setting or load of this run; null before the first"
+    )
     branch_of: BranchState | None = Field(description="Source of a branch; null otherwise")
     note: str = Field(
         description="Note given when the session was opened, such as why a law of the ranking"
