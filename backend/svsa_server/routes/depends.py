@@ -1,9 +1,11 @@
 """Dependencies of the routes: session, run, caller, with checks of control and ownership."""
 
 import time
+from collections.abc import Callable
 from typing import Annotated, Any
+from urllib.parse import quote
 
-from fastapi import Depends, Header, Path
+from fastapi import Depends, Header, Path, Response
 from starlette.requests import HTTPConnection
 from starlette.types import Scope
 
@@ -23,6 +25,7 @@ from svsa_server.leases.lease import (
     read_client,
 )
 from svsa_server.problems import ChangedError, Problem
+from svsa_server.routing import API
 from svsa_server.sessions.hosted import HostedSession
 from svsa_server.sessions.laboratory import SHARED_SESSION
 
@@ -138,6 +141,29 @@ _RUN_ID = Path(description="Id of a run", examples=["20260102-030405-9f8e7d6c"])
 RunId = Annotated[str, Owned("run"), _RUN_ID]
 ChangedRunId = Annotated[str, Owned("run", changes=True), _RUN_ID]
 
+
+def find_locator(connection: HTTPConnection, response: Response) -> Callable[[str], None]:
+    """Return a function that sends the path of a created object, below /api/v1, as its address."""
+
+    def locate(path: str) -> None:
+        prefix = connection.scope.get("root_path", "")
+        response.headers["Location"] = f"{prefix}{API}{quote(path)}"
+
+    return locate
+
+
+Locate = Annotated[Callable[[str], None], Depends(find_locator)]
+
+CREATED: dict[int | str, dict[str, Any]] = {
+    201: {
+        "headers": {
+            "Location": {
+                "description": "Address of the created object",
+                "schema": {"type": "string"},
+            }
+        }
+    }
+}
 REFUSALS: dict[int | str, dict[str, Any]] = {
     404: {"model": Problem, "description": "No such session, load or run"},
     409: {

@@ -49,8 +49,8 @@ class Recordings:
 
     async def start(
         self, session: Session, name: str, tags: tuple[str, ...], notes: str, owner: str = ""
-    ) -> None:
-        """Start to record a session; `owner` is the id of the user, in a class.
+    ) -> str:
+        """Start to record a session, and return the id of the run; `owner` is the id of the user.
 
         Raises:
             StateError: If the session cannot be recorded.
@@ -66,6 +66,7 @@ class Recordings:
         except svsa.StateError:
             self.finish(recorder)
             raise
+        return header.run_id
 
     def finish(self, recorder: Recorder) -> None:
         """Complete the file and the entry of an ended recording in the background."""

@@ -38,6 +38,31 @@ def find_studies_folder() -> Path:
     return find_data_folder() / "studies"
 
 
+def prepare_study(
+    name: str, study: Study, root: Path | None = None, owner: str = ""
+) -> StoredStudy:
+    """Return what `keep_study` would save, and raise its errors, except those of the disk."""
+    check_name(name)
+    folder = (root or find_studies_folder()) / name
+    created = datetime.now(UTC).isoformat(timespec="seconds")
+    if not is_kept(name, root):
+        return StoredStudy(name, study, folder, created, __version__, owner)
+    kept = open_study(name, root)
+    if kept.study.changed(runs=study.runs) != study:
+        raise StudyError(
+            f"Study {name} is another one: it was started with other settings. Use another"
+            f" name (--name), or delete {folder}."
+        )
+    if study.runs > kept.study.runs:
+        kept = kept._replace(study=study)
+    if kept.version != __version__ and find_missing(kept):
+        raise StudyError(
+            f"Study {name} was started by version {kept.version} of svsa, and this is"
+            f" {__version__}: its runs might differ. Use another name (--name)."
+        )
+    return kept
+
+
 def keep_study(name: str, study: Study, root: Path | None = None, owner: str = "") -> StoredStudy:
     """Save a new study, or continue one, possibly with more runs.
 
@@ -47,32 +72,15 @@ def keep_study(name: str, study: Study, root: Path | None = None, owner: str = "
         ParameterError: If the name is invalid.
         StudyError: If another study has the name.
     """
-    check_name(name)
-    folder = (root or find_studies_folder()) / name
-    created, version = datetime.now(UTC).isoformat(timespec="seconds"), __version__
-    if is_kept(name, root):
-        kept = open_study(name, root)
-        if kept.study.changed(runs=study.runs) != study:
-            raise StudyError(
-                f"Study {name} is another one: it was started with other settings. Use another"
-                f" name (--name), or delete {folder}."
-            )
-        if study.runs <= kept.study.runs:
-            study = kept.study
-        if kept.version != __version__ and find_missing(kept._replace(study=study)):
-            raise StudyError(
-                f"Study {name} was started by version {kept.version} of svsa, and this is"
-                f" {__version__}: its runs might differ. Use another name (--name)."
-            )
-        created, version, owner = kept.created, kept.version, kept.owner
-    text = {"name": name, "created": created, "version": version, "owner": owner}
-    content = json.dumps(text | {"study": study.model_dump(mode="json")}, indent=1)
+    stored = prepare_study(name, study, root, owner)
+    text = {field: getattr(stored, field) for field in ("name", "created", "version", "owner")}
+    content = json.dumps(text | {"study": stored.study.model_dump(mode="json")}, indent=1)
     try:
-        (folder / PARTS).mkdir(parents=True, exist_ok=True)
-        replace_file(folder / STUDY_FILE, content.encode())
+        (stored.folder / PARTS).mkdir(parents=True, exist_ok=True)
+        replace_file(stored.folder / STUDY_FILE, content.encode())
     except OSError as error:
-        raise StudyError(f"Study {name} cannot be saved in {folder}: {error}.") from None
-    return StoredStudy(name, study, folder, created, version, owner)
+        raise StudyError(f"Study {name} cannot be saved in {stored.folder}: {error}.") from None
+    return stored
 
 
 def is_kept(name: str, root: Path | None = None) -> bool:

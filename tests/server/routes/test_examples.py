@@ -121,3 +121,5 @@ def test_example_is_accepted(
         assert answer.status_code in (404, 409), answer.text
     else:
         assert answer.is_success, answer.text
+        if answer.status_code == 201:
+            assert lab.get(answer.headers["Location"]).is_success

@@ -173,7 +173,7 @@ def test_row_becomes_a_recorded_run_with_the_metrics_of_the_table(lab, complete_
 
 def test_cancelled_study_keeps_its_rows_and_continues_to_the_same_table(lab, complete_study):
     begun = lab.post(STUDIES, json={"text": TEXT, "name": "left", "runs": 20_000}).json()
-    again = lab.post(STUDIES, json={"text": TEXT, "name": "left", "runs": 20_000})
+    again = reject(lab, {"text": TEXT, "name": "left", "runs": 20_000})
     assert (again.status_code, "cancel it first" in again.json()["detail"]) == (409, True)
     follow(lab, f"{STUDIES}/left", lambda state: state["done"] >= 256)
     lab.delete(f"/api/v1/jobs/{begun['job']['id']}")
@@ -191,6 +191,25 @@ def test_cancelled_study_keeps_its_rows_and_continues_to_the_same_table(lab, com
     )
     lab.delete(f"/api/v1/jobs/{on['job']['id']}")
     follow(lab, f"{STUDIES}/left", lambda state: not is_under_way(state))
+
+
+def reject(lab, asked):
+    """Return the rejection of a study, which its check rejects in the same way."""
+    checked, refused = (lab.post(STUDIES + path, json=asked) for path in ("/check", ""))
+    assert (checked.status_code, checked.json()) == (refused.status_code, refused.json())
+    return refused
+
+
+def test_study_with_the_name_of_another_one_is_rejected(lab, complete_study):
+    refused = reject(lab, {"text": TEXT, "name": "complete_study", "laws": ["pd"]})
+    assert refused.status_code == 409
+    assert "complete_study is another one" in refused.json()["detail"]
+    assert "or delete SVSA_DATA/studies/complete_study." in refused.json()["detail"]
+
+
+def test_full_queue_of_studies_is_rejected():
+    with run_lab_in_process(max_studies="0") as running:
+        assert reject(running.client, {"source": "load"}).status_code == 503
 
 
 def test_invalid_study_is_rejected_with_line_name_value_and_bound(lab):
@@ -213,7 +232,7 @@ def test_invalid_study_is_rejected_with_line_name_value_and_bound(lab):
         ({"source": "load", "laws": ["no_law"]}, "installed"),
         ({"text": TEXT, "name": "a/b"}, "1 to 64 letters"),
     ):
-        refused = lab.post(STUDIES, json=asked)
+        refused = reject(lab, asked)
         assert refused.status_code == 422, asked
         assert reported in refused.json()["detail"]
     assert (

@@ -15,7 +15,7 @@ from svsa_server.access.owned import Owned
 from svsa_server.access.permissions import OBSERVER, OPERATOR, allow
 from svsa_server.jobs import falsifications, tunings
 from svsa_server.jobs.queue import Job, Jobs, Kind
-from svsa_server.routes.depends import BUSY, REFUSALS, NamedPerson
+from svsa_server.routes.depends import BUSY, CREATED, REFUSALS, Locate, NamedPerson
 from svsa_server.routing import build_router
 from svsa_server.schemas.evaluation.falsification import FalsificationRequest
 from svsa_server.schemas.evaluation.job import JobList, JobRequest, JobState, describe_job
@@ -47,10 +47,11 @@ def list_jobs(
     )
 
 
-@router.post("", status_code=201, responses=BUSY)
+@router.post("", status_code=201, responses=BUSY | CREATED)
 @allow(OPERATOR)
 async def start_job(
     request: Request,
+    locate: Locate,
     person: NamedPerson,
     wanted: Annotated[
         JobRequest,
@@ -70,8 +71,11 @@ async def start_job(
     """
     jobs = find_jobs(request)
     if isinstance(wanted, TuningRequest):
-        return describe_job(_start_tuning(request, jobs, wanted, person.id), 0)
-    return describe_job(await _start_falsification(jobs, wanted, person.id))
+        job = _start_tuning(request, jobs, wanted, person.id)
+    else:
+        job = await _start_falsification(jobs, wanted, person.id)
+    locate(f"/jobs/{job.id}")
+    return describe_job(job, 0)
 
 
 @router.get("/{job}")

@@ -16,6 +16,7 @@ from svsa.evaluation.studies.store import (
     keep_study,
     list_studies,
     open_study,
+    prepare_study,
     read_owner,
 )
 from svsa.evaluation.studies.store import delete_study as discard
@@ -25,12 +26,13 @@ from svsa.evaluation.studies.tables import format_metric
 from svsa.evaluation.studies.work import build_schema
 from svsa_server.access.owned import Owned
 from svsa_server.access.permissions import OBSERVER, OPERATOR, allow
+from svsa_server.access.roles import Person
 from svsa_server.jobs.queue import Job
 from svsa_server.jobs.studies import decide, replay, run, summarize
 from svsa_server.jobs.study_rows import MAX_ROWS, MEDIA_TYPE, pack_rows
 from svsa_server.jobs.study_rows import read_row as find_row
 from svsa_server.problems import UnknownError
-from svsa_server.routes.depends import BUSY, REFUSALS, NamedPerson, Work
+from svsa_server.routes.depends import BUSY, CREATED, REFUSALS, Locate, NamedPerson, Work
 from svsa_server.routes.evaluation.jobs import find_jobs
 from svsa_server.routing import build_router
 from svsa_server.schemas.evaluation.study import (
@@ -81,32 +83,31 @@ def list_all_studies(request: Request, person: NamedPerson) -> StudyList:
     )
 
 
-@router.post("/check")
+@router.post("/check", responses=BUSY)
 @allow(OBSERVER)
-def check_study(person: NamedPerson, wanted: StudyBody) -> StudyPlan:
-    """Check a study without starting it. A wrong text is rejected with lines and bounds."""
-    return describe_plan(*wanted.build(person))
+async def check_study(request: Request, person: NamedPerson, wanted: StudyBody) -> StudyPlan:
+    """Check a study without starting it: what `POST /studies` rejects now is rejected.
+
+    A wrong text is rejected with lines and bounds.
+    """
+    stored = await _prepare(request, person, wanted)
+    return describe_plan(stored.name, stored.study)
 
 
-@router.post("", status_code=201, responses=BUSY)
+@router.post("", status_code=201, responses=BUSY | CREATED)
 @allow(OPERATOR)
-async def start_study(request: Request, person: NamedPerson, wanted: StudyBody) -> StudyState:
+async def start_study(
+    request: Request, locate: Locate, person: NamedPerson, wanted: StudyBody
+) -> StudyState:
     """Start or continue a study of this name as a job; live sessions are not delayed.
 
     In a class, only its user and the instructor see it and the runs of its rows.
     """
-    name, study = await asyncio.to_thread(wanted.build, person)
-    owner = await asyncio.to_thread(read_owner, name)
-    if owner is not None and not person.may_change(owner):
-        raise StudyError(f"The name {name} is taken by another study: give yours another name.")
-    await request.app.state.quota.check(person.id)
-    jobs = find_jobs(request)
-    jobs.check_room("study", person.id)
-    job = _find_job(request, name)
-    if job is not None and job.is_under_way:
-        raise StateError(f"Study {name} is {job.status} already: cancel it first.")
+    name, study, *_ = await _prepare(request, person, wanted)
     stored = await asyncio.to_thread(keep_study, name, study, owner=person.id)
-    return describe_study(stored, jobs.start("study", study.title, run, stored, person.id))
+    job = find_jobs(request).start("study", stored.study.title, run, stored, person.id)
+    locate(f"/studies/{name}")
+    return describe_study(stored, job)
 
 
 @router.get("/{study}")
@@ -195,15 +196,31 @@ def read_row(study: Study, row: Row) -> dict[str, str | bool | int | float | Non
     return find_row(_open(study), row)
 
 
-@router.post("/{study}/rows/{row}/replay", status_code=201, responses=BUSY)
+@router.post("/{study}/rows/{row}/replay", status_code=201, responses=BUSY | CREATED)
 @allow(OPERATOR)
 async def replay_row(
-    request: Request, person: NamedPerson, work: Work, study: Study, row: Row
+    request: Request, locate: Locate, person: NamedPerson, work: Work, study: Study, row: Row
 ) -> RowReplay:
     """Run a row again as a recorded run with every sample, for the 3D view."""
     await request.app.state.quota.check(person.id)
     stored = await asyncio.to_thread(_open, study)
-    return RowReplay(**await work.run(replay, stored, row, person.id))
+    replayed = RowReplay(**await work.run(replay, stored, row, person.id))
+    locate(f"/runs/{replayed.run_id}")
+    return replayed
+
+
+async def _prepare(request: Request, person: Person, wanted: StudyRequest) -> StoredStudy:
+    """Return the study of a request as it would be saved; raise why it cannot be started."""
+    name, study = await asyncio.to_thread(wanted.build, person)
+    owner = await asyncio.to_thread(read_owner, name)
+    if owner is not None and not person.may_change(owner):
+        raise StudyError(f"The name {name} is taken by another study: give yours another name.")
+    await request.app.state.quota.check(person.id)
+    find_jobs(request).check_room("study", person.id)
+    job = _find_job(request, name)
+    if job is not None and job.is_under_way:
+        raise StateError(f"Study {name} is {job.status} already: cancel it first.")
+    return await asyncio.to_thread(prepare_study, name, study, owner=person.id)
 
 
 def _send_table(study: str, stored: StoredStudy) -> FileResponse:

@@ -9,7 +9,9 @@ from svsa.runs.design_file import PROTOTYPE_FILE, parse_design
 from svsa_server.access.permissions import OPERATOR, allow
 from svsa_server.routes.depends import (
     CHANGED,
+    CREATED,
     REFUSALS,
+    Locate,
     NamedPerson,
     NamedSession,
     check_unchanged,
@@ -27,10 +29,11 @@ router = build_router(
 )
 
 
-@router.post("/excitation", status_code=201)
+@router.post("/excitation", status_code=201, responses=CREATED)
 @allow(OPERATOR)
 async def excite(
     request: Request,
+    locate: Locate,
     hosted: NamedSession,
     person: NamedPerson,
     wanted: Annotated[ExcitationRequest, Body(examples=[{"name": "Identification"}])],
@@ -44,9 +47,10 @@ async def excite(
     await request.app.state.quota.check(person.id)
     if hosted.session.status != "running":
         await run_waiting(hosted.session.start)
-    await request.app.state.recordings.start(
+    run_id = await request.app.state.recordings.start(
         hosted.session, wanted.name, (TAG,), "", owner=person.id
     )
+    locate(f"/runs/{run_id}")
     hosted.begin_excitation()
     return build_state(hosted)
 

@@ -2,7 +2,7 @@
 
 from typing import Annotated
 
-from fastapi import Body, Query, Response
+from fastapi import Body, Query
 
 from svsa.errors import StateError
 from svsa.runs.command import ApplyLoad, JointNumber, RemoveLoad
@@ -11,8 +11,8 @@ from svsa.simulation.plant.loads import Load
 from svsa.simulation.plant.loads.mass import PAPER_ARM_M, PAPER_MASS_KG
 from svsa_server.access.permissions import OBSERVER, OPERATOR, allow
 from svsa_server.problems import UnknownError
-from svsa_server.routes.depends import REFUSALS, NamedSession
-from svsa_server.routing import API, build_router
+from svsa_server.routes.depends import CREATED, REFUSALS, Locate, NamedSession
+from svsa_server.routing import build_router
 from svsa_server.schemas.lab.session import AddedLoad, LoadState, SessionState
 from svsa_server.sessions.lock import WaitingRoute
 from svsa_server.sessions.state import build_state
@@ -43,9 +43,6 @@ GivenLoad = Annotated[
 ]
 
 
-_LOCATION = {"Location": {"description": "Address of the load", "schema": {"type": "string"}}}
-
-
 @router.get("")
 @allow(OBSERVER)
 def list_loads(hosted: NamedSession) -> list[LoadState]:
@@ -53,11 +50,11 @@ def list_loads(hosted: NamedSession) -> list[LoadState]:
     return build_state(hosted).loads
 
 
-@router.post("", status_code=201, responses={201: {"headers": _LOCATION}})
+@router.post("", status_code=201, responses=CREATED)
 @allow(OPERATOR)
 def apply_load(
     hosted: NamedSession,
-    response: Response,
+    locate: Locate,
     load: GivenLoad,
     joint: Annotated[
         JointNumber | None,
@@ -78,7 +75,7 @@ def apply_load(
     command = session.change(ApplyLoad(argument=load, joint=joint))
     # A push that is sent again is its active load, which has the new value and may not be the last.
     added = next(held for held in reversed(build_state(hosted).loads) if held.load == load)
-    response.headers["Location"] = f"{API}/sessions/{session.name}/loads/{added.id}"
+    locate(f"/sessions/{session.name}/loads/{added.id}")
     time_s = command.tick * session.run.period_s
     return AddedLoad(**dict(added), tick=command.tick, time_s=time_s)
 

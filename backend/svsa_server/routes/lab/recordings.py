@@ -6,7 +6,7 @@ from fastapi import Body, Request
 
 from svsa.errors import StateError
 from svsa_server.access.permissions import OPERATOR, allow
-from svsa_server.routes.depends import REFUSALS, NamedPerson, NamedSession
+from svsa_server.routes.depends import CREATED, REFUSALS, Locate, NamedPerson, NamedSession
 from svsa_server.routing import build_router
 from svsa_server.schemas.lab.session import SessionState
 from svsa_server.schemas.runs.run import RecordingRequest
@@ -15,10 +15,11 @@ from svsa_server.sessions.state import build_state
 router = build_router(tags=["recording"], responses=REFUSALS)
 
 
-@router.post("/sessions/{session}/recording", status_code=201)
+@router.post("/sessions/{session}/recording", status_code=201, responses=CREATED)
 @allow(OPERATOR)
 async def start_recording(
     request: Request,
+    locate: Locate,
     hosted: NamedSession,
     person: NamedPerson,
     wanted: Annotated[RecordingRequest, Body(examples=[{"name": "3 kg at 15 N·m/rad"}])],
@@ -30,9 +31,10 @@ async def start_recording(
             " or clear the fault of a bench, and start the recording then."
         )
     await request.app.state.quota.check(person.id)
-    await request.app.state.recordings.start(
+    run_id = await request.app.state.recordings.start(
         hosted.session, wanted.name, wanted.tags, wanted.notes, owner=person.id
     )
+    locate(f"/runs/{run_id}")
     return build_state(hosted)
 
 

@@ -8,7 +8,14 @@ from fastapi.responses import JSONResponse
 from svsa_server.access.permissions import OBSERVER, OPERATOR, allow
 from svsa_server.openapi import UPGRADED
 from svsa_server.problems import Problem, answer_problem
-from svsa_server.routes.depends import REFUSALS, NamedClient, NamedPerson, NamedSession
+from svsa_server.routes.depends import (
+    CREATED,
+    REFUSALS,
+    Locate,
+    NamedClient,
+    NamedPerson,
+    NamedSession,
+)
 from svsa_server.routes.teaching.course import restore_settings, set_up_step
 from svsa_server.routing import build_router
 from svsa_server.schemas.evaluation.scenario import SCENARIO_EXAMPLE
@@ -44,10 +51,11 @@ async def list_sessions(
     return [build_state(one) for one in hosted if person.may_see(one.owner)]
 
 
-@router.post("", status_code=201)
+@router.post("", status_code=201, responses=CREATED)
 @allow(OPERATOR)
 async def create_session(
     request: Request,
+    locate: Locate,
     _: NamedClient,
     person: NamedPerson,
     wanted: Annotated[
@@ -70,7 +78,9 @@ async def create_session(
 
     The lab ends it automatically when it is unused. It is running; a session from a run is paused.
     """
-    return build_state(await open_session(request.app, wanted, person.id))
+    hosted = await open_session(request.app, wanted, person.id)
+    locate(f"/sessions/{hosted.session.name}")
+    return build_state(hosted)
 
 
 @router.delete("/{session}", status_code=204)

@@ -32,7 +32,15 @@ from svsa.teaching.grading import law_trial
 from svsa_server.access.permissions import OBSERVER, OPERATOR, allow
 from svsa_server.access.roles import Person
 from svsa_server.problems import UnknownError
-from svsa_server.routes.depends import BUSY, REFUSALS, NamedPerson, Runs, Work
+from svsa_server.routes.depends import (
+    BUSY,
+    CREATED,
+    REFUSALS,
+    Locate,
+    NamedPerson,
+    Runs,
+    Work,
+)
 from svsa_server.routing import build_router
 from svsa_server.schemas.teaching.course import (
     AnswerRequest,
@@ -161,10 +169,11 @@ async def try_submission_law(
     )
 
 
-@router.post("/course/{exercise}/submission", status_code=201)
+@router.post("/course/{exercise}/submission", status_code=201, responses=CREATED)
 @allow(OPERATOR)
 def submit_exercise(
     request: Request,
+    locate: Locate,
     person: NamedPerson,
     runs: Runs,
     exercise: ExerciseName,
@@ -193,6 +202,7 @@ def submit_exercise(
         return progress.changed(submitted_at=now, points=judged[0].points)
 
     _change(request, person, exercise, keep)
+    locate(f"/course/{exercise}")
     return judged[0]
 
 

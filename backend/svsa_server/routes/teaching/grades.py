@@ -14,7 +14,7 @@ from svsa_server.access.owned import Owned
 from svsa_server.access.permissions import INSTRUCTOR_ONLY, OBSERVER, allow
 from svsa_server.access.roles import Role
 from svsa_server.jobs.gradings import Task, grade_all
-from svsa_server.routes.depends import BUSY, REFUSALS, NamedPerson
+from svsa_server.routes.depends import BUSY, CREATED, REFUSALS, Locate, NamedPerson
 from svsa_server.routes.evaluation.jobs import find_jobs
 from svsa_server.routes.teaching.course import find_store
 from svsa_server.routing import build_router
@@ -76,10 +76,11 @@ async def read_grades(
     )
 
 
-@router.post("", status_code=201, responses=BUSY)
+@router.post("", status_code=201, responses=BUSY | CREATED)
 @allow(INSTRUCTOR_ONLY)
 async def grade_class(
     request: Request,
+    locate: Locate,
     person: NamedPerson,
     wanted: Annotated[GradingRequest, Body(examples=[{"again": False}])],
 ) -> JobState:
@@ -101,4 +102,6 @@ async def grade_class(
         wanted.again,
     )
     title = "Everything again" if wanted.again else "What has no grade"
-    return describe_job(find_jobs(request).start(KIND, title, grade_all, task, person.id))
+    job = find_jobs(request).start(KIND, title, grade_all, task, person.id)
+    locate(f"/jobs/{job.id}")
+    return describe_job(job)

@@ -19,7 +19,7 @@ from svsa_server.access.permissions import OBSERVER, OPERATOR, allow
 from svsa_server.access.roles import Person
 from svsa_server.jobs.submissions import Task, measure_laws
 from svsa_server.problems import UnknownError
-from svsa_server.routes.depends import BUSY, REFUSALS, NamedPerson, Work
+from svsa_server.routes.depends import BUSY, CREATED, REFUSALS, Locate, NamedPerson, Work
 from svsa_server.routes.evaluation.jobs import find_jobs
 from svsa_server.routes.runs.files import PAGE, send_page
 from svsa_server.routing import build_router
@@ -72,10 +72,11 @@ async def show_worst_run(
     return send_page(await work.write(partial(write_worst_run, key), board.folder))
 
 
-@router.post("/submissions", status_code=201, responses=BUSY)
+@router.post("/submissions", status_code=201, responses=BUSY | CREATED)
 @allow(OPERATOR)
 async def submit_law(
     request: Request,
+    locate: Locate,
     person: NamedPerson,
     wanted: Annotated[
         LawSubmission,
@@ -91,19 +92,24 @@ async def submit_law(
     key = digest_law(law)
     started = await asyncio.to_thread(Board.find_started, _find_folder(request))
     if started is not None and started.find(key) is not None:
+        locate(f"/leaderboard/entries/{key}/replay")
         return SubmissionState(key=key, job=None)
     await asyncio.to_thread(check_isolation)
     board = await _open_board(request)
     task = Task(board.folder, wanted.name, law, person.name or wanted.author, person.id)
-    return SubmissionState(key=key, job=_begin(request, person, task))
+    job = _begin(request, person, task)
+    locate(f"/jobs/{job.id}")
+    return SubmissionState(key=key, job=job)
 
 
-@router.post("/laws", status_code=201, responses=BUSY)
+@router.post("/laws", status_code=201, responses=BUSY | CREATED)
 @allow(OPERATOR)
-async def measure_installed_laws(request: Request, person: NamedPerson) -> JobState:
+async def measure_installed_laws(request: Request, locate: Locate, person: NamedPerson) -> JobState:
     """Start a job that measures the installed laws without an entry in this season (minutes)."""
     board = await _open_board(request)
-    return _begin(request, person, Task(board.folder, "The laws of the lab", None))
+    job = _begin(request, person, Task(board.folder, "The laws of the lab", None))
+    locate(f"/jobs/{job.id}")
+    return job
 
 
 async def _open_board(request: Request) -> Board:
