@@ -66,8 +66,10 @@ class JobFolder:
 def read_progress(folder: Path) -> Progress:
     """The last report of the worker in this folder."""
     try:
-        return Progress(*json.loads((folder / PROGRESS).read_bytes()))
-    except FileNotFoundError:
+        done, total, rate_per_s = json.loads((folder / PROGRESS).read_bytes())
+        return Progress(int(done), int(total), rate_per_s and float(rate_per_s))
+    except (OSError, ValueError, TypeError):
+        # Before the first report, or damaged after the server was killed.
         return Progress()
 
 

@@ -2,16 +2,16 @@
 
 The worker of a job writes its progress into a folder, and reads there whether to stop. The server
 only reads, so that a job does not depend on its followers. It has a low priority, and ends with the
-server. In a class each user has a fair share: a few jobs at once, a limited time, and turns by
-user; the instructor has a separate place.
+server; the folder remains (see `saved`).
+
+In a class each user has a fair share: a few jobs at once, a limited time, and turns by user; the
+instructor has a separate place.
 """
 
 import asyncio
 import contextlib
 import itertools
 import logging
-import shutil
-import tempfile
 from collections import OrderedDict
 from collections.abc import AsyncIterator, Callable, Mapping
 from datetime import UTC, datetime
@@ -23,6 +23,7 @@ from svsa.errors import SvsaError
 from svsa_server.access.roles import INSTRUCTOR
 from svsa_server.jobs.heavy_work import BusyError, HeavyWork
 from svsa_server.jobs.progress import JobFolder, Progress, ask_to_stop, read_progress
+from svsa_server.jobs.saved import JobFolders, remove_job, write_job
 from svsa_server.problems import TooManyError, UnknownError
 
 MAX_KEPT = 50
@@ -30,7 +31,7 @@ GRACE_S = 10.0
 """Time for a job to stop and keep partial results after its limit, before it is killed, s."""
 
 Kind = Literal["tuning", "study", "falsification", "submission", "grading"]
-Status = Literal["waiting", "running", "done", "cancelled", "failed"]
+Status = Literal["waiting", "running", "done", "cancelled", "failed", "interrupted"]
 PLURALS: dict[Kind, str] = {
     "tuning": "tunings",
     "study": "studies",
@@ -109,7 +110,7 @@ class Job:
     """One long-running job.
 
     Attributes:
-        task: Request that the worker receives.
+        task: Request that the worker receives; None for an earlier job without a result.
         folder: Folder to which the worker writes.
         owner: Id of the user who started it; empty if it belongs to all users.
     """
@@ -118,10 +119,26 @@ class Job:
         self.id, self.title = folder.name, title
         self.kind: Kind = kind
         self.task, self.folder, self.owner = task, folder, owner
-        self.created = datetime.now(UTC).isoformat(timespec="seconds")
+        self.created = datetime.now(UTC).isoformat(timespec="microseconds")
         self.status: Status = "waiting"
         self.problem: str | None = None
         self._task: asyncio.Task[None] | None = None
+
+    @classmethod
+    def restore(cls, folder: Path, saved: dict[str, Any]) -> "Job":
+        """Build an earlier job from its description."""
+        job = cls(saved["kind"], saved["title"], saved["task"], folder, saved["owner"])
+        job.created, job.status, job.problem = saved["created"], saved["status"], saved["problem"]
+        return job
+
+    def save(self) -> None:
+        """Write the description of the job into its folder.
+
+        Raises:
+            OSError: If it cannot be written.
+        """
+        names = ("kind", "title", "owner", "created", "status", "problem")
+        write_job(self.folder, {name: getattr(self, name) for name in names}, self.task)
 
     @property
     def is_under_way(self) -> bool:
@@ -157,6 +174,13 @@ class Job:
             if not isinstance(error, SvsaError):
                 _log.exception("The %s %s was ended by an error of the program", self.kind, self.id)
             self.status, self.problem = "failed", str(error) or type(error).__name__
+        await self._save_end()
+
+    async def _save_end(self) -> None:
+        try:
+            await asyncio.to_thread(self.save)
+        except OSError as error:
+            _log.warning("The end of the %s %s was not saved: %s", self.kind, self.id, error)
 
     async def _stop_late(self, queue: _Queue, worked: "asyncio.Future[bool]", share: Share) -> bool:
         """Stop a job that exceeds its user's share of time; return whether it did.
@@ -198,13 +222,20 @@ class Jobs:
     """The jobs of one server; the latest are stored. One job of each kind runs at a time.
 
     `most` is the maximum number of running and waiting jobs of each kind; the instructor has one
-    additional place. `share` is that of each user of a class; None in a lab without users.
+    additional place. `share` is that of each user of a class; None in a lab without users. `path`
+    is the folder in which jobs are kept for the next server; None: none are kept.
     """
 
-    def __init__(self, most: Mapping[Kind, int], share: Share | None = None) -> None:
+    def __init__(
+        self, most: Mapping[Kind, int], share: Share | None = None, path: Path | None = None
+    ) -> None:
         self._queues = {kind: _Queue(limit, share) for kind, limit in most.items()}
-        self._kept: OrderedDict[str, Job] = OrderedDict()
-        self._place = tempfile.TemporaryDirectory(prefix="svsa-", ignore_cleanup_errors=True)
+        self._folders = JobFolders(path)
+        self._kept: OrderedDict[str, Job] = OrderedDict(
+            (saved["id"], Job.restore(self._folders.path / saved["id"], saved))
+            for saved in self._folders.saved
+        )
+        self._remove_old()
 
     def start(self, kind: Kind, title: str, work: Work, task: Any, owner: str = "") -> Job:
         """Start a job, or queue it.
@@ -214,14 +245,23 @@ class Jobs:
             TooManyError: If the user has too many jobs.
         """
         self.check_room(kind, owner)
-        folder = Path(self._place.name) / uuid4().hex[:12]
+        folder = self._folders.path / uuid4().hex[:12]
         folder.mkdir()
-        job = self._kept[folder.name] = Job(kind, title, task, folder, owner)
+        job = Job(kind, title, task, folder, owner)
+        try:
+            job.save()
+        except OSError:
+            remove_job(folder)
+            raise
+        self._kept[folder.name] = job
         job.begin(self._queues[kind], work)
-        ended = [one for one in self._kept.values() if not one.is_under_way]
-        for old in ended[: max(0, len(self._kept) - MAX_KEPT)]:
-            shutil.rmtree(self._kept.pop(old.id).folder, ignore_errors=True)
+        self._remove_old()
         return job
+
+    def _remove_old(self) -> None:
+        ended = [job for job in self._kept.values() if not job.is_under_way]
+        for job in ended[: max(0, len(self._kept) - MAX_KEPT)]:
+            remove_job(self._kept.pop(job.id).folder)
 
     def check_room(self, kind: Kind, owner: str = "") -> None:
         """Check that one more job of this kind and user is allowed.
@@ -258,7 +298,8 @@ class Jobs:
         job = self._kept.get(name)
         if job is None or kind not in (None, job.kind):
             raise UnknownError(
-                f"There is no {kind or 'job'} {name[:80]} here: a server restart deletes jobs."
+                f"There is no {kind or 'job'} {name[:80]} here: the lab keeps the newest"
+                f" {MAX_KEPT} jobs."
             )
         return job
 
@@ -267,12 +308,12 @@ class Jobs:
         return [job for job in reversed(self._kept.values()) if kind in (None, job.kind)]
 
     def close(self) -> None:
-        """End all jobs, and delete their files."""
+        """End all jobs; those that had not ended are listed as interrupted by the next server."""
         for job in self._kept.values():
             job.drop()
         for queue in self._queues.values():
             queue.worker.close()
-        self._place.cleanup()
+        self._folders.close()
 
 
 def _describe_late(share: Share) -> str:

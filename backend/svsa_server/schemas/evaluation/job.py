@@ -4,8 +4,10 @@ from typing import Annotated
 
 from pydantic import BaseModel, Field
 
+from svsa.errors import SvsaError
 from svsa.inputs.checked import BY_KIND
 from svsa_server.jobs.queue import Job, Kind, Status
+from svsa_server.problems import hide_places
 from svsa_server.schemas.evaluation.falsification import (
     FalsificationRequest,
     FalsificationResult,
@@ -24,7 +26,8 @@ class JobState(BaseModel):
     title: str = Field(description="Title")
     created: str = Field(description="When it was started, ISO 8601 in UTC")
     status: Status = Field(
-        description="cancelled: stopped before its end; what is finished is saved"
+        description="cancelled: stopped before its end; interrupted: the server ended before it."
+        " What is finished is saved"
     )
     done: int = Field(description="Finished candidates, runs or submissions")
     total: int = Field(description="Total number; 0 before the job runs")
@@ -34,7 +37,9 @@ class JobState(BaseModel):
     left_s: float | None = Field(
         description="Remaining time at this rate, s; null while it is not known"
     )
-    problem: str | None = Field(description="Why it failed")
+    problem: str | None = Field(
+        description="Why it failed or was interrupted, what was saved and how to continue"
+    )
     result: TuningResult | FalsificationResult | None = Field(
         description="Result of a tuning or falsification; null for other kinds, whose results have "
         "separate routes"
@@ -61,10 +66,16 @@ def describe_job(job: Job, first: int | None = None) -> JobState:
     status, is_under_way = job.status, job.is_under_way
     progress = job.progress
     result: TuningResult | FalsificationResult | None = None
-    if job.kind == "tuning":
-        result = describe_tuning(job, is_under_way, first)
-    elif job.kind == "falsification":
-        result = describe_falsification(job, is_under_way)
+    problem = job.problem
+    try:
+        if job.kind == "tuning":
+            result = describe_tuning(job, is_under_way, first)
+        elif job.kind == "falsification":
+            result = describe_falsification(job, is_under_way)
+    except (SvsaError, OSError, ValueError, LookupError, TypeError) as error:
+        if job.status != "interrupted":
+            raise
+        problem = f"{problem} Its result is damaged, and not shown: {error}"
     return JobState(
         id=job.id,
         kind=job.kind,
@@ -75,6 +86,6 @@ def describe_job(job: Job, first: int | None = None) -> JobState:
         total=progress.total,
         rate_per_s=progress.rate_per_s if is_under_way else None,
         left_s=progress.left_s if is_under_way else None,
-        problem=job.problem,
+        problem=problem and hide_places(problem),
         result=result,
     )

@@ -7,6 +7,7 @@ export const jobsText = {
       done: "done",
       cancelled: "cancelled; completed runs are kept",
       failed: "failed",
+      interrupted: "interrupted; completed runs are kept",
     },
     rate: (rate: number) =>
       `${rate < 10 ? rate.toFixed(1) : Math.round(rate).toLocaleString("en")} runs/s`,
@@ -40,6 +41,7 @@ export const tuningText = {
       done: "Done.",
       cancelled: "Stopped; best result so far.",
       failed: "Failed.",
+      interrupted: "Interrupted; best result so far.",
     },
     progress: (law: string, tried: number, budget: number) =>
       `${law}: ${Math.max(0, tried - 1)} of ${budget} candidates`,
