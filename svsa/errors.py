@@ -130,8 +130,16 @@ def _shorten(value: Any, longest: int = 80) -> str:
     if isinstance(value, list | tuple):
         text = f"[{', '.join(_shorten(item) for item in value[: longest // 2])}]"
     else:
-        text = repr(value)
+        text = write_value(value)
     return text if len(text) <= longest else text[: longest - 1] + "…"
+
+
+def write_value(value: Any) -> str:
+    """Format a value as Python does; an integer that Python does not print gets a description."""
+    try:
+        return repr(value)
+    except ValueError:
+        return "a value with an integer of thousands of digits"
 
 
 def settle_number(value: float, digits: int) -> float:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from fastapi import FastAPI
 from starlette.middleware.gzip import DEFAULT_EXCLUDED_CONTENT_TYPES, GZipMiddleware
+from starlette.types import Scope
 
 import svsa
 from svsa.errors import ParameterError, Violation
@@ -27,14 +28,14 @@ from svsa_server.access.authentication import (
     SecretAuthentication,
 )
 from svsa_server.access.class_keys import ClassKeys
-from svsa_server.access.guard import AccessGuard, read_person
+from svsa_server.access.guard import AccessGuard, find_path, read_person
 from svsa_server.access.memberships import FILE, Memberships
 from svsa_server.access.people import People
 from svsa_server.access.permissions import PermissionTable
 from svsa_server.access.rates import Rates
 from svsa_server.access.roles import INSTRUCTOR
 from svsa_server.config import Settings
-from svsa_server.errors import install_error_handlers
+from svsa_server.errors import ErrorAnswers, install_error_handlers
 from svsa_server.jobs.heavy_work import HeavyWork
 from svsa_server.jobs.queue import Jobs, Share
 from svsa_server.leases.outcomes import OutcomeKeeper, Outcomes
@@ -58,6 +59,8 @@ if TYPE_CHECKING:
     from svsa_server.lti.tool import LtiTool
 
 _log = logging.getLogger("svsa")
+JOBS = "jobs"
+"""Folder of the jobs in the data folder."""
 MAX_GRADINGS = 2
 SMALLEST_COMPRESSED_BYTES = 1400
 _COMPACT_TYPES = ("application/octet-stream", "application/vnd.apache.parquet")
@@ -119,6 +122,7 @@ def build_app(
         OutcomeKeeper,
         outcomes=app.state.outcomes,
         read_person_id=lambda scope: read_person(scope).id,
+        has_route=partial(_has_route, app.state.permissions),
     )
     app.add_middleware(
         AccessGuard,
@@ -131,6 +135,7 @@ def build_app(
     if config.classroom:
         app.state.audit = AuditLog(find_data_folder())
         app.add_middleware(Auditor, log=app.state.audit, permissions=app.state.permissions)
+    app.add_middleware(ErrorAnswers)
     # Outermost, so that stored outcomes are plain. In a thread from 16 kB on, which would delay the
     # sessions by a millisecond.
     app.add_middleware(
@@ -142,6 +147,10 @@ def build_app(
     )
     install_error_handlers(app)
     return app
+
+
+def _has_route(permissions: PermissionTable, scope: Scope) -> bool:
+    return permissions.find(scope["method"], find_path(scope)).has_route
 
 
 def build_authentication(config: Settings, keys: ClassKeys | None = None) -> Authentication:
@@ -212,7 +221,8 @@ async def _live(app: FastAPI) -> AsyncIterator[None]:
     app.state.quota = quota
     app.state.disk = DiskWatch(find_data_folder(), config.disk_low_gb * 1e9)
     app.state.heavy_work = HeavyWork(config.max_exports)
-    app.state.jobs = Jobs(
+    app.state.jobs = await asyncio.to_thread(
+        Jobs,
         {
             "tuning": config.max_tunings,
             "study": config.max_studies,
@@ -221,6 +231,7 @@ async def _live(app: FastAPI) -> AsyncIterator[None]:
             "grading": MAX_GRADINGS,
         },
         Share(config.max_jobs_each, config.job_s) if config.classroom else None,
+        find_data_folder() / JOBS,
     )
     app.state.scenes = scenes = Scenes(laboratory)
     tasks = [

@@ -3,6 +3,7 @@
 import contextlib
 import errno
 import json
+import logging
 from dataclasses import replace
 from typing import Any
 
@@ -10,19 +11,22 @@ from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse
 from starlette.exceptions import HTTPException
-from starlette.routing import compile_path
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from svsa.errors import ParameterError, SecurityError, StateError, SvsaError
 from svsa.evaluation.studies.stored import StudyError
 from svsa.inputs.explanation import explain_problems
+from svsa.inputs.nesting import DEEPEST
 from svsa.runs.records.catalogue.entry import CatalogueError, ChangedRunError, UnknownRunError
 from svsa.runs.records.header import RecordError
 from svsa.teaching.isolation.refusal import NotIsolatedError
+from svsa_server.access.guard import find_path
 from svsa_server.jobs.heavy_work import RETRY_AFTER_S, BusyError
 from svsa_server.leases.lease import HeldError
 from svsa_server.problems import (
     LONGEST_ECHO,
     ChangedError,
+    MediaTypeError,
     NotYoursError,
     TooManyError,
     UnknownError,
@@ -30,6 +34,7 @@ from svsa_server.problems import (
     answer_violations,
 )
 
+_log = logging.getLogger("svsa")
 _STORAGE_ERRORS = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EACCES, errno.EIO})
 """Errors of a disk that is full, read-only or broken, which are no program errors (500)."""
 
@@ -38,8 +43,8 @@ def install_error_handlers(app: FastAPI) -> None:
     """Answer every error of the library and of the schemas with a `Problem`."""
 
     @app.exception_handler(RequestValidationError)
-    def refuse_request(request: Request, error: RequestValidationError) -> JSONResponse:
-        return _refuse_request(request, error)
+    def refuse_request(_: Request, error: RequestValidationError) -> JSONResponse:
+        return _refuse_request(error)
 
     @app.exception_handler(HTTPException)
     def refuse_route(request: Request, error: HTTPException) -> JSONResponse:
@@ -67,30 +72,24 @@ def install_error_handlers(app: FastAPI) -> None:
             # Mark the run as damaged in the list of runs.
             with contextlib.suppress(SvsaError):
                 request.app.state.catalogue.check(request.path_params["run_id"])
-        return answer_problem(409, "record", str(error))
+        return _answer_storage(error) or answer_problem(409, "record", str(error))
 
     @app.exception_handler(StudyError)
     def refuse_study(_: Request, error: StudyError) -> JSONResponse:
-        return answer_problem(409, "study", str(error))
+        return _answer_storage(error) or answer_problem(409, "study", str(error))
 
     @app.exception_handler(CatalogueError)
     @app.exception_handler(SecurityError)
     def refuse_storage(_: Request, error: SvsaError) -> JSONResponse:
         return answer_problem(507, "storage", str(error))
 
-    @app.exception_handler(OSError)
-    def refuse_disk(_: Request, error: OSError) -> JSONResponse:
-        if error.errno not in _STORAGE_ERRORS:
-            raise error
-        message = (
-            f"The data folder cannot be written ({error.strerror}); nothing was changed. Free some"
-            " space, or make the folder writable, and send the request again."
-        )
-        return answer_problem(507, "storage", message)
-
     @app.exception_handler(BusyError)
     def refuse_work(_: Request, error: BusyError) -> JSONResponse:
         return answer_problem(503, "busy", str(error), {"Retry-After": str(RETRY_AFTER_S)})
+
+    @app.exception_handler(MediaTypeError)
+    def refuse_media_type(_: Request, error: MediaTypeError) -> JSONResponse:
+        return answer_problem(415, "content_type", str(error))
 
     @app.exception_handler(TooManyError)
     def refuse_more(_: Request, error: TooManyError) -> JSONResponse:
@@ -111,8 +110,8 @@ def install_error_handlers(app: FastAPI) -> None:
         return answer_problem(404, "not_found", str(error))
 
 
-def _refuse_request(request: Request, error: RequestValidationError) -> JSONResponse:
-    """Reject a request; a body that is not JSON, or not sent as such, has its own problem."""
+def _refuse_request(error: RequestValidationError) -> JSONResponse:
+    """Reject a request; a body that is not JSON has its own problem."""
     body: list[Any] = []
     others: list[Any] = []
     for problem in error.errors():
@@ -123,22 +122,11 @@ def _refuse_request(request: Request, error: RequestValidationError) -> JSONResp
             detail = f"The body is not JSON: {found.msg} at {place}."
             return answer_problem(400, "malformed_json", detail)
         (body if where == "body" else others).append(problem | {"loc": rest})
-    given, wanted = request.headers.get("content-type"), _find_media_type(request)
-    if body and isinstance(error.body, bytes) and (given or "").partition(";")[0] != wanted:
-        said = f"its Content-Type is {given[:80]!r}" if given else "it has no Content-Type"
-        message = f"The body was not read, because {said}: send Content-Type: {wanted}."
-        return answer_problem(422, "content_type", message)
     violations = [
         replace(violation, name="body") if violation.name == "value" else violation
         for violation in explain_problems(body)
     ]
     return answer_violations(violations + explain_problems(others, {}))
-
-
-def _find_media_type(request: Request) -> str:
-    """Return the media type of the body that the route takes."""
-    field = getattr(request.scope.get("route"), "body_field", None)
-    return getattr(getattr(field, "field_info", None), "media_type", "application/json")
 
 
 def _refuse_route(request: Request, error: HTTPException) -> JSONResponse:
@@ -148,23 +136,67 @@ def _refuse_route(request: Request, error: HTTPException) -> JSONResponse:
     if status == 404:
         kind, message = "not_found", f"Not found: {path}. /docs lists all routes."
     elif status == 405:
-        allowed, kind = ", ".join(_find_allowed(request)), "method_not_allowed"
+        # The framework names the methods of the first matching route only.
+        methods = request.app.state.permissions.list_methods(find_path(request.scope))
+        allowed, kind = ", ".join(methods), "method_not_allowed"
         headers = {"Allow": allowed}
         message = f"{request.method} is not possible at {path}, but {allowed} is."
     elif status == 400:
         kind = "malformed_json"
-        message = "The body is not readable JSON: it is not UTF-8, or nested too deeply."
+        message = (
+            "The body is not readable JSON: it is not UTF-8, has an integer of thousands of"
+            f" digits, or is nested in more than {DEEPEST} levels."
+        )
     else:
         kind, message = "too_large" if status == 413 else "refused", str(error.detail)
     return answer_problem(status, kind, message, headers)
 
 
-def _find_allowed(request: Request) -> list[str]:
-    """The methods of every route of a path; the framework names those of the first alone."""
-    paths = request.app.openapi()["paths"]
-    found: set[str] = set()
-    for path, item in paths.items():
-        pattern, _, _ = compile_path(path)
-        if pattern.match(request.url.path):
-            found |= {method.upper() for method in item}
-    return sorted(found)
+class ErrorAnswers:
+    """ASGI middleware that answers the errors of all others, and those of the program, as problems.
+
+    Handlers of the application see the errors of its routes only.
+    """
+
+    def __init__(self, app: ASGIApp) -> None:
+        self._app = app
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Pass the request on; an answer that has begun can only be cut off."""
+        has_begun = scope["type"] != "http"
+
+        async def send_noted(message: Message) -> None:
+            nonlocal has_begun
+            has_begun = True
+            await send(message)
+
+        try:
+            await self._app(scope, receive, send_noted)
+        except Exception as error:
+            if has_begun:
+                raise
+            answer = _answer_storage(error) or _answer_program_error(scope, error)
+            await answer(scope, receive, send)
+
+
+def _answer_storage(error: BaseException | None) -> JSONResponse | None:
+    """Build the answer for an error of the disk, also if another error reports it; else None."""
+    while error is not None and getattr(error, "errno", None) not in _STORAGE_ERRORS:
+        error = error.__cause__ or error.__context__
+    if not isinstance(error, OSError):
+        return None
+    message = (
+        f"The data folder cannot be written ({error.strerror}); nothing was changed. Free some"
+        " space, or make the folder writable, and send the request again."
+    )
+    return answer_problem(507, "storage", message)
+
+
+def _answer_program_error(scope: Scope, error: Exception) -> JSONResponse:
+    _log.error("%s %s failed", scope["method"], scope["path"], exc_info=error)
+    message = (
+        f"The request was not completed, because of an error of the program"
+        f" ({type(error).__name__}); the log of the server has its cause. Read the state, and send"
+        " the request again."
+    )
+    return answer_problem(500, "internal", message)

@@ -137,6 +137,7 @@ def _complete_operation(operation: dict[str, Any], needs_secret: bool) -> None:
         answers["429"] = _describe("In a class: too many requests; repeat after Retry-After")
     if "requestBody" in operation:
         answers["400"] = _describe("The body is not JSON")
+        answers["415"] = _describe("The body is of another media type")
         answers["413"] = _describe(f"The body is longer than {LONGEST_BODY_BYTES} bytes")
 
 

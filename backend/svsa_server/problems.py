@@ -1,13 +1,19 @@
 """Problem details of rejected requests (RFC 9457), with name, value, unit and bound."""
 
+import contextlib
 import math
+import sys
+import tempfile
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 from fastapi.responses import JSONResponse
 from pydantic import BaseModel, Field
 
-from svsa.errors import SvsaError, Violation
+import svsa
+from svsa.errors import SvsaError, Violation, write_value
+from svsa.inputs.data_folder import find_data_folder
 
 MEDIA_TYPE = "application/problem+json"
 TYPE_PREFIX = "urn:svsa:problem:"
@@ -30,6 +36,7 @@ TITLES = {
     "record": "The record cannot be read",
     "study": "The study does not allow it in its current state",
     "storage": "It cannot be stored",
+    "internal": "An error of the program",
     "busy": "Too much work is in progress",
     "silent": "The sessions do not respond",
     "websocket": "This is a WebSocket",
@@ -59,6 +66,10 @@ class ChangedError(SvsaError):
 
 class NotYoursError(SvsaError):
     """The caller may read the object, but not change it; nothing was changed."""
+
+
+class MediaTypeError(SvsaError):
+    """The body of the request is not of the media type of the route; it was not read."""
 
 
 class TooManyError(SvsaError):
@@ -101,16 +112,29 @@ class Problem(BaseModel):
     violations: list[ViolationModel] = Field(default=[], description="Every rejected value")
 
 
+def hide_places(text: str) -> str:
+    """Replace the absolute paths of this machine, which a student need not know, by short names."""
+    places = [(find_data_folder(), "SVSA_DATA"), (Path(svsa.__file__).parents[1], "…")]
+    places += [(Path(sys.prefix), "…"), (Path(tempfile.gettempdir()), "…")]
+    with contextlib.suppress(RuntimeError):
+        places.append((Path.home(), "~"))
+    names = {str(form): name for place, name in places for form in (place, place.resolve())}
+    for place in sorted(names, key=len, reverse=True):
+        if len(place) > 1:
+            text = text.replace(place, names[place])
+    return text
+
+
 def build_problem(
     status: int, kind: str, detail: str, violations: Sequence[Violation] = ()
 ) -> Problem:
     """The problem of this kind, one of `TITLES`."""
-    models = [build_violation(one) for one in violations]
+    models = [build_violation(violation) for violation in violations]
     return Problem(
         type=TYPE_PREFIX + kind,
         title=TITLES[kind],
         status=status,
-        detail=detail,
+        detail=_make_text(detail),
         violations=models,
     )
 
@@ -137,13 +161,13 @@ def answer_violations(violations: Sequence[Violation], place: str = "") -> JSONR
 def build_violation(violation: Violation) -> ViolationModel:
     """A rejected value on the wire."""
     return ViolationModel(
-        name=violation.name,
+        name=_make_text(violation.name),
         value=_make_safe(violation.value),
         unit=violation.unit,
         bound=violation.bound,
         limits=violation.limits,
-        finding=violation.finding,
-        message=violation.message,
+        finding=_make_text(violation.finding),
+        message=_make_text(violation.message),
     )
 
 
@@ -153,5 +177,10 @@ def _make_safe(value: Any) -> Any:
         return value
     if isinstance(value, float) and math.isfinite(value):
         return value
-    text = value if isinstance(value, str) else repr(value)
-    return text.encode("utf-8", "replace").decode()[:LONGEST_ECHO]
+    text = value if isinstance(value, str) else write_value(value)
+    return _make_text(text)[:LONGEST_ECHO]
+
+
+def _make_text(text: str) -> str:
+    """Make a text safe for an answer: without lone surrogates, and paths of this machine."""
+    return hide_places(text.encode("utf-8", "replace").decode())

@@ -9,8 +9,10 @@ from typing import Any, TypeVar
 
 from svsa.errors import ParameterError, Violation
 from svsa.inputs.nearest import suggest
+from svsa.inputs.nesting import DEEPEST, is_too_deep
 
 _Kind = TypeVar("_Kind")
+_TOO_DEEP = f"its values are nested too deeply: at most {DEEPEST} levels"
 _TABLE = re.compile(r"\s*(\[\[?)([^\[\]]+)\]")
 _PLACE = re.compile(r"\(at line (\d+), column \d+\)$")
 _COMMA = re.compile(r"=\s*([+-]?\d+,\d+)\s*(?:#|$)")
@@ -56,12 +58,18 @@ def parse_toml(text: str, kind: str, name: Path | str) -> dict[str, Any]:
         ParameterError: If the text cannot be parsed.
     """
     try:
-        return tomllib.loads(text)
+        sections = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise _refuse(kind, name, _describe_comma(error, text) or error) from None
     except RecursionError:
         # tomllib parses nested arrays and tables by recursion.
-        raise _refuse(kind, name, "its values are nested too deeply") from None
+        raise _refuse(kind, name, _TOO_DEEP) from None
+    except ValueError as error:
+        # Such as an integer of more digits than Python converts.
+        raise _refuse(kind, name, error) from None
+    if is_too_deep(sections):
+        raise _refuse(kind, name, _TOO_DEEP)
+    return sections
 
 
 def build_checked(

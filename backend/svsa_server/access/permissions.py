@@ -74,10 +74,13 @@ class Entry(NamedTuple):
 
 
 class Found(NamedTuple):
-    """The permission that a request needs, and the parameters that its path names."""
+    """The permission that a request needs, the parameters that its path names, and whether there is
+    a route of its method and path.
+    """
 
     permission: Permission
     named: dict[str, str]
+    has_route: bool
 
 
 class PermissionTable:
@@ -106,8 +109,13 @@ class PermissionTable:
         method = "GET" if method == "HEAD" else method
         for entry, pattern in self._compiled:
             if entry.method == method and (match := pattern.match(path)):
-                return Found(entry.permission, match.groupdict())
-        return Found(INSTRUCTOR_ONLY, {})
+                return Found(entry.permission, match.groupdict(), True)
+        return Found(INSTRUCTOR_ONLY, {}, False)
+
+    def list_methods(self, path: str) -> list[str]:
+        """List the methods of the routes of a path, by name."""
+        matches = (entry for entry, pattern in self._compiled if pattern.match(path))
+        return sorted({entry.method for entry in matches} - {WEBSOCKET})
 
     def write(self) -> str:
         """Return the complete table as text, one line for each method and path, by path."""

@@ -117,19 +117,24 @@ class Outcomes:
 class OutcomeKeeper:
     """ASGI middleware that executes each request with a key once, and stores its outcome.
 
-    `read_person_id` returns the id of the caller, empty in a lab without users.
+    `read_person_id` returns the id of the caller, empty in a lab without users. `has_route` returns
+    whether there is a route for the request: any other one has no effect, and no outcome.
     """
 
     def __init__(
-        self, app: ASGIApp, outcomes: Outcomes, read_person_id: Callable[[Scope], str]
+        self,
+        app: ASGIApp,
+        outcomes: Outcomes,
+        read_person_id: Callable[[Scope], str],
+        has_route: Callable[[Scope], bool],
     ) -> None:
-        self._app = app
+        self._app, self._has_route = app, has_route
         self._outcomes, self._read_person_id = outcomes, read_person_id
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Pass the request on, or repeat the answer of the first request with its key."""
         given = Headers(scope=scope).get(KEY_HEADER) if scope["type"] == "http" else None
-        if given is None or scope["method"] not in CHANGING:
+        if given is None or scope["method"] not in CHANGING or not self._has_route(scope):
             await self._app(scope, receive, send)
             return
         # A structured field has quotation marks; many clients omit them.

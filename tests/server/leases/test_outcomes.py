@@ -117,7 +117,7 @@ def test_malformed_key_is_rejected(lab: Lab, session: str, key: str) -> None:
 
 
 def run_keeper(app: ASGIApp, outcomes: Outcomes) -> httpx.AsyncClient:
-    keeper = OutcomeKeeper(app, outcomes, lambda scope: "")
+    keeper = OutcomeKeeper(app, outcomes, lambda scope: "", lambda scope: True)
     return httpx.AsyncClient(transport=httpx.ASGITransport(keeper), base_url="http://lab")
 
 

@@ -60,7 +60,7 @@ def test_malformed_json_is_reported_with_its_position(
 def test_other_content_type_is_reported(lab: Lab, header: str | None, words: str) -> None:
     headers = {"Content-Type": header} if header else {}
     answer = lab.client.put(lab.session + "/law", content=b'{"law":"fl"}', headers=headers)
-    assert answer.status_code == 422
+    assert answer.status_code == 415
     assert answer.json()["type"] == TYPE_PREFIX + "content_type"
     assert words in answer.json()["detail"]
     assert "application/json" in answer.json()["detail"]
@@ -68,11 +68,14 @@ def test_other_content_type_is_reported(lab: Lab, header: str | None, words: str
 
 def test_body_that_is_not_json_by_definition_is_not_requested_as_json(lab: Lab) -> None:
     """A binary CSV is an invalid value; another content type is reported as such."""
-    for header, kind in (("text/csv", "out_of_range"), ("image/png", "content_type")):
+    for header, status, kind in (
+        ("text/csv", 422, "out_of_range"),
+        ("image/png", 415, "content_type"),
+    ):
         answer = lab.client.post(
             "/api/v1/references/csv", content=b"\xff\xfe", headers={"Content-Type": header}
         )
-        assert (answer.status_code, answer.json()["type"]) == (422, TYPE_PREFIX + kind)
+        assert (answer.status_code, answer.json()["type"]) == (status, TYPE_PREFIX + kind)
         assert "application/json" not in answer.json()["detail"]
 
 
@@ -114,8 +117,37 @@ def test_invalid_origin_is_another_site(lab: Lab) -> None:
     assert answer.json()["type"] == TYPE_PREFIX + "other_origin"
 
 
-@pytest.mark.parametrize("opening", ["[", "{a="])
-def test_deeply_nested_parameter_file_is_rejected(lab: Lab, opening: str) -> None:
-    answer = lab.client.put(lab.session + "/nominal", json={"toml": "a=" + opening * 5000})
+DEEP = {
+    "arrays": "a=" + "[" * 5000,
+    "inline tables": "a=" + "{a=" * 5000,
+    "dotted key": ".".join("a" * 3000) + " = 1",
+    "dotted table": "[" + ".".join("a" * 3000) + "]",
+    "closed arrays": "a=" + "[" * 300 + "]" * 300,
+}
+
+
+@pytest.mark.parametrize("text", DEEP.values(), ids=DEEP.keys())
+@pytest.mark.parametrize(
+    ("method", "path", "other"),
+    [
+        ("PUT", "/api/v1/sessions/lab/nominal", {}),
+        ("POST", "/api/v1/studies/check", {}),
+        ("POST", "/api/v1/studies", {}),
+        ("POST", "/api/v1/jobs", {"kind": "falsification"}),
+    ],
+)
+def test_deeply_nested_toml_is_rejected(
+    lab: Lab, method: str, path: str, other: dict, text: str
+) -> None:
+    field = "toml" if path.endswith("nominal") else "text"
+    answer = lab.client.request(method, path, json={field: text} | other)
     assert answer.status_code == 422
     assert "nested too deeply" in answer.json()["detail"]
+
+
+@pytest.mark.parametrize("number", ["9" * 5000, "0x" + "f" * 5000])
+def test_integer_of_thousands_of_digits_is_rejected(lab: Lab, number: str) -> None:
+    text = f"[actuator]\nlink_inertia_kg_m2 = {number}"
+    answer = lab.client.put(lab.session + "/nominal", json={"toml": text})
+    assert answer.status_code == 422
+    assert "digits" in answer.json()["detail"]
