@@ -4,6 +4,7 @@ import contextlib
 import errno
 import json
 import logging
+import sqlite3
 from dataclasses import replace
 from typing import Any
 
@@ -37,6 +38,15 @@ from svsa_server.problems import (
 _log = logging.getLogger("svsa")
 _STORAGE_ERRORS = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EACCES, errno.EIO})
 """Errors of a disk that is full, read-only or broken, which are no program errors (500)."""
+_DATABASE_ERRORS = frozenset(
+    {
+        sqlite3.SQLITE_FULL,
+        sqlite3.SQLITE_READONLY,
+        sqlite3.SQLITE_IOERR,
+        sqlite3.SQLITE_CANTOPEN,
+    }
+)
+"""The same errors, as SQLite reports them."""
 
 
 def install_error_handlers(app: FastAPI) -> None:
@@ -52,11 +62,11 @@ def install_error_handlers(app: FastAPI) -> None:
 
     @app.exception_handler(ParameterError)
     def refuse_parameters(_: Request, error: ParameterError) -> JSONResponse:
-        return answer_violations(error.violations, error.file)
+        return _answer_storage(error) or answer_violations(error.violations, error.file)
 
     @app.exception_handler(StateError)
     def refuse_state(_: Request, error: StateError) -> JSONResponse:
-        return answer_problem(409, "not_now", str(error))
+        return _answer_storage(error) or answer_problem(409, "not_now", str(error))
 
     @app.exception_handler(NotIsolatedError)
     def refuse_law(_: Request, error: NotIsolatedError) -> JSONResponse:
@@ -181,15 +191,23 @@ class ErrorAnswers:
 
 def _answer_storage(error: BaseException | None) -> JSONResponse | None:
     """Build the answer for an error of the disk, also if another error reports it; else None."""
-    while error is not None and getattr(error, "errno", None) not in _STORAGE_ERRORS:
+    while error is not None and not _is_of_storage(error):
         error = error.__cause__ or error.__context__
-    if not isinstance(error, OSError):
+    if error is None:
         return None
+    reason = getattr(error, "strerror", None) or error
     message = (
-        f"The data folder cannot be written ({error.strerror}); nothing was changed. Free some"
+        f"The data folder cannot be written ({reason}); nothing was changed. Free some"
         " space, or make the folder writable, and send the request again."
     )
     return answer_problem(507, "storage", message)
+
+
+def _is_of_storage(error: BaseException) -> bool:
+    if isinstance(error, sqlite3.Error):
+        # The code of an extended error has the basic one in its last byte.
+        return getattr(error, "sqlite_errorcode", 0) & 0xFF in _DATABASE_ERRORS
+    return isinstance(error, OSError) and error.errno in _STORAGE_ERRORS
 
 
 def _answer_program_error(scope: Scope, error: Exception) -> JSONResponse:

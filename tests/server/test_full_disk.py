@@ -10,7 +10,7 @@ import pytest
 
 from svsa.teaching.class_folder import SECRET_BYTES, keep_secret
 from tests.lab_in_process import run_lab_in_process
-from tests.server.access.classroom import read_kind
+from tests.server.access.classroom import Classroom, read_kind, run_class
 from tests.server.routes.test_scenarios_routes import IMPULSE
 from tests.waiting import wait_until
 
@@ -19,14 +19,27 @@ SCENARIO = "/api/v1/scenarios/mine"
 
 @pytest.fixture
 def disk(tmp_path: Path) -> Iterator[Path]:
-    """A real file system of 8 MB."""
-    folder = tmp_path / "disk"
+    with mount_disk(tmp_path) as folder:
+        yield folder
+
+
+@contextlib.contextmanager
+def mount_disk(place: Path) -> Iterator[Path]:
+    """Mount a real file system of 8 MB."""
+    folder = place / "disk"
     folder.mkdir()
     mount = ["mount", "-t", "tmpfs", "-o", "size=8m", "tmpfs", str(folder)]
     if subprocess.run(mount, capture_output=True, check=False).returncode:
         pytest.skip("this account cannot mount a file system")
     yield folder
     subprocess.run(["umount", "--lazy", str(folder)], check=True)
+
+
+@pytest.fixture(scope="module")
+def shared_disk(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Path, Classroom]]:
+    """A class on a file system of its own."""
+    with mount_disk(tmp_path_factory.mktemp("class")) as disk, run_class(disk) as classroom:
+        yield disk, classroom
 
 
 @contextlib.contextmanager
@@ -57,6 +70,34 @@ def test_request_on_a_full_disk_is_rejected_and_succeeds_with_free_space(disk: P
         lab.put(SCENARIO, json=IMPULSE).raise_for_status()
         lab.put(path, json={"step": second}).raise_for_status()
         assert [*disk.rglob("*.tmp"), *disk.rglob("*.part")] == []
+
+
+@pytest.mark.parametrize(
+    ("method", "path", "body"),
+    [
+        ("POST", "/sessions/lab/recording", {}),
+        ("POST", "/sessions/lab/excitation", {"name": "full"}),
+        ("POST", "/studies", {"source": "load", "runs": 8}),
+        ("POST", "/jobs", {"kind": "tuning", "law": "fl", "budget": 1}),
+        ("POST", "/jobs", {"kind": "falsification", "adversary": "impulse", "runs": 1}),
+        ("POST", "/leaderboard/laws", None),
+        ("POST", "/leaderboard/submissions", {"name": "A", "law": "def law(*_): return 0.0, 0.0"}),
+        ("POST", "/join", None),
+        ("POST", "/class/code", None),
+        ("POST", "/rejoin-code", None),
+    ],
+)
+def test_every_route_that_writes_reports_a_full_disk(
+    shared_disk: tuple[Path, Classroom], method: str, path: str, body: dict | None
+) -> None:
+    disk, classroom = shared_disk
+    lab = classroom.join("Bob") if path == "/rejoin-code" else classroom.log_in()
+    if path == "/join":
+        body = {"name": "Ada", "code": classroom.reported.code}
+    with filled(disk):
+        answer = lab.request(method, f"/api/v1{path}", json=body)
+        assert (answer.status_code, read_kind(answer)) == (507, "storage"), answer.text
+    assert str(disk) not in answer.text
 
 
 @pytest.mark.exhaustive

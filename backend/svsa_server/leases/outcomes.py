@@ -7,6 +7,7 @@ client whose answer was lost can also read the outcome by the key.
 
 import asyncio
 import contextlib
+import copy
 import hashlib
 import re
 import time
@@ -166,7 +167,8 @@ class OutcomeKeeper:
                 nonlocal size
                 size += len(message.get("body", b""))
                 if size <= MAX_ANSWER_BYTES:
-                    answer.append(dict(message))
+                    # A copy: a middleware that compresses the answer changes its headers.
+                    answer.append(copy.deepcopy(dict(message)))
                 if message["type"] == "http.response.body" and not message.get("more_body"):
                     is_stored = size <= MAX_ANSWER_BYTES and not _is_secret(answer[0])
                     status = answer[0]["status"]

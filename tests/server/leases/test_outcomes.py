@@ -88,6 +88,13 @@ def test_repeat_receives_the_first_answer_and_changes_nothing(lab: Lab, session:
     assert len(lab.client.get(session).json()["loads"]) == 1
 
 
+def test_repeat_of_a_compressed_answer_can_be_read(lab: Lab, session: str) -> None:
+    key = {"Idempotency-Key": "long-answer"}
+    first, second = (lab.client.post(f"{session}/pause", headers=key) for _ in range(2))
+    assert first.headers["Content-Encoding"] == "gzip"
+    assert first.json() == second.json()
+
+
 def test_simultaneous_repeats_are_carried_out_once(lab: Lab, session: str) -> None:
     with ThreadPoolExecutor(4) as pool:
         answers = list(pool.map(lambda _: add_load(lab, session, "at-once"), range(4)))
