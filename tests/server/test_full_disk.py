@@ -1,6 +1,7 @@
 """A data folder on a full or read-only disk: requests are rejected, and nothing is lost."""
 
 import contextlib
+import shutil
 import subprocess
 from collections.abc import Iterator
 from pathlib import Path
@@ -29,7 +30,7 @@ def mount_disk(place: Path) -> Iterator[Path]:
     folder = place / "disk"
     folder.mkdir()
     mount = ["mount", "-t", "tmpfs", "-o", "size=8m", "tmpfs", str(folder)]
-    if subprocess.run(mount, capture_output=True, check=False).returncode:
+    if not shutil.which("mount") or subprocess.run(mount, capture_output=True).returncode:
         pytest.skip("this account cannot mount a file system")
     yield folder
     subprocess.run(["umount", "--lazy", str(folder)], check=True)
