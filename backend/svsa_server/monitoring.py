@@ -19,7 +19,9 @@ from starlette.routing import BaseRoute, Route
 
 from svsa.hardware.session.session import BenchSession
 from svsa.inputs.data_folder import find_data_folder
+from svsa_server.access.guard import read_person
 from svsa_server.access.permissions import OBSERVER, allow
+from svsa_server.access.roles import Person
 from svsa_server.sessions.bench_state import build_loop
 from svsa_server.sessions.recording import NoCatalogue
 
@@ -84,15 +86,16 @@ def list_problems(app: FastAPI) -> list[str]:
 
 
 class LabCollector(Collector):
-    """The metrics of a lab, read when they are requested."""
+    """The metrics of a lab as one person may read them: sessions of others are not named."""
 
-    def __init__(self, app: FastAPI) -> None:
-        self._state = app.state
+    def __init__(self, app: FastAPI, person: Person) -> None:
+        self._state, self._person = app.state, person
 
     def collect(self) -> Iterator[Metric]:
         """All families; names and units by the conventions of Prometheus."""
-        sessions = [hosted.session for hosted in self._state.laboratory.sessions.values()]
-        streams = sum(hosted.streams for hosted in self._state.laboratory.sessions.values())
+        all_hosted = self._state.laboratory.sessions.values()
+        sessions = [hosted.session for hosted in all_hosted]
+        streams = sum(hosted.streams for hosted in all_hosted)
         by_kind = Counter((session.plant, session.status) for session in sessions)
         family = GaugeMetricFamily("svsa_sessions", "Open sessions", labels=["plant", "status"])
         for labels, number in by_kind.items():
@@ -106,7 +109,7 @@ class LabCollector(Collector):
             "Wall time by which the simulation of a session's run is late",
             labels=["session"],
         )
-        for session in sessions:
+        for session in (each.session for each in all_hosted if self._person.may_see(each.owner)):
             if not isinstance(session, BenchSession):
                 family.add_metric([session.name], session.pace.accumulated_delay_s)
         yield family
@@ -148,12 +151,12 @@ def _collect_bench(session: BenchSession) -> Iterator[Metric]:
 
 def build_metrics_route(app: FastAPI) -> BaseRoute:
     """`GET /metrics`: metrics of lab and process for Prometheus."""
-    registry = CollectorRegistry()
-    ProcessCollector(registry=registry)
-    registry.register(LabCollector(app))
 
     @allow(OBSERVER)
     async def serve_metrics(request: Request) -> Response:
+        registry = CollectorRegistry()
+        ProcessCollector(registry=registry)
+        registry.register(LabCollector(app, read_person(request.scope)))
         encode, content_type = choose_encoder(request.headers.get("accept", ""))
         return Response(encode(registry), media_type=content_type)
 

@@ -8,6 +8,7 @@ from prometheus_client.parser import text_string_to_metric_families
 
 from svsa_server.commands.serve import write_json_logs
 from tests.lab_in_process import run_lab_in_process
+from tests.server.access.classroom import run_class
 from tests.waiting import wait_until
 
 MORE_THAN_ANY_DISK_GB = "1e9"
@@ -35,6 +36,18 @@ def test_metrics_count_sessions_recordings_and_disk(tmp_path) -> None:
         assert after["svsa_sessions", "simulated", "running"] == 2
         assert after["svsa_recordings",] == before["svsa_recordings",] + 1
         assert ("svsa_session_delay_seconds", session) in after
+
+
+def test_metrics_name_a_private_session_only_to_its_owner_and_the_instructor(tmp_path) -> None:
+    with run_class(tmp_path) as room:
+        ada, bob, ola = room.join("Ada"), room.join("Bob"), room.join("Ola", "observer")
+        session = ada.post("/api/v1/sessions", json={}).raise_for_status().json()["session"]
+        for browser, is_named in ((ada, True), (room.log_in(), True), (bob, False), (ola, False)):
+            metrics = read_metrics(browser)
+            assert metrics["svsa_sessions", "simulated", "running"] == 2
+            assert ("svsa_session_delay_seconds", "lab") in metrics
+            text = browser.get("/metrics").text
+            assert (session in text) == is_named
 
 
 def test_lab_is_ready_until_the_disk_is_nearly_full(tmp_path, monkeypatch) -> None:
