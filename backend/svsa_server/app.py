@@ -46,6 +46,7 @@ from svsa_server.page import build_page_routes
 from svsa_server.routes import build_routes
 from svsa_server.scene.scenes import Scenes
 from svsa_server.scene.viser_proxy import ViserProxy
+from svsa_server.security_headers import SecuredApp
 from svsa_server.sessions.bench_start import open_bench
 from svsa_server.sessions.hosted import log_ended_lease
 from svsa_server.sessions.indexing import Indexing
@@ -92,7 +93,7 @@ def build_app(
     """
     config = config or Settings()
     authentication = build_authentication(config, keys)
-    app = FastAPI(
+    app = SecuredApp(
         title="SVSA Lab",
         version=svsa.__version__,
         description=_DESCRIPTION,

@@ -11,6 +11,8 @@ from starlette.responses import FileResponse, Response
 from starlette.staticfiles import NotModifiedResponse, StaticFiles
 from starlette.types import Scope
 
+from svsa_server.security_headers import POLICY
+
 _SUFFIXES = {"br": ".br", "gzip": ".gz"}
 """Endings of the copies of `frontend/web/compress.mjs`, the smallest first."""
 
@@ -51,7 +53,10 @@ class CompressedFiles(StaticFiles):
                 break
         response = FileResponse(path, status_code, headers, media_type, stat_result=stat_result)
         if self.is_not_modified(response.headers, request):
-            return NotModifiedResponse(response.headers)
+            unchanged = NotModifiedResponse(response.headers)
+            # A browser applies the policy of this answer to its stored copy.
+            unchanged.headers.update({k: v for k, v in headers.items() if k == POLICY})
+            return unchanged
         return response
 
 

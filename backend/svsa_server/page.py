@@ -10,28 +10,15 @@ from starlette.types import Scope
 
 from svsa_server.access.permissions import OBSERVER, PUBLIC, allow
 from svsa_server.compressed_files import CompressedFiles
+from svsa_server.security_headers import GUIDE_POLICY, PAGE_POLICY, POLICY
 
 PAGE = Path(__file__).parent / "page"
 GUIDE = Path(__file__).parent / "guide"
 PLACES = ("ranking", "falsifier", "grades", "leaderboard", "learn", "runs", "studies")
 """Parts of the page with a readable address; the page itself uses its query."""
 
-_HEADERS = {
-    "Cache-Control": "no-cache",
-    "Content-Security-Policy": (
-        "default-src 'self'; style-src 'self'; img-src 'self' data:;"
-        " object-src 'none'; base-uri 'none'; frame-ancestors 'self'"
-    ),
-    "X-Content-Type-Options": "nosniff",
-    "Referrer-Policy": "no-referrer",
-}
-_GUIDE_HEADERS = _HEADERS | {
-    # The theme of the guide has inline scripts and styles; none of them contain user input.
-    "Content-Security-Policy": (
-        "default-src 'self'; script-src 'self' 'unsafe-inline'; style-src 'self' 'unsafe-inline';"
-        " img-src 'self' data:; object-src 'none'; base-uri 'none'; frame-ancestors 'self'"
-    ),
-}
+_HEADERS = {"Cache-Control": "no-cache", POLICY: PAGE_POLICY}
+_GUIDE_HEADERS = _HEADERS | {POLICY: GUIDE_POLICY}
 
 
 _KEPT = {"Cache-Control": "public, max-age=31536000, immutable"}

@@ -2,6 +2,9 @@
 
 Such clients block no other client, but each keeps a socket and unsent data as long as its machine
 keeps the connection open. uvicorn closes such a WebSocket only once all data were sent.
+
+Answers that the application does not give, such as that to an invalid request, get the security
+headers here.
 """
 
 import asyncio
@@ -13,6 +16,10 @@ import h11
 from uvicorn.protocols.http.h11_impl import H11Protocol
 from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
 from websockets.frames import Frame
+from websockets.http11 import Response
+from websockets.server import ServerProtocol
+
+from svsa_server.security_headers import add_security_headers
 
 PING_EVERY_BYTES = 4096
 FIRST_WINDOW_BYTES = 16 * 1024
@@ -22,10 +29,39 @@ QUEUED_S = 0.5
 """Time for which data may wait on their way, beyond the shortest delay of a pong, s."""
 
 
+class SecuredHttp(h11.Connection):
+    """An HTTP connection whose responses have the security headers."""
+
+    def send(self, event: h11.Event) -> Any:
+        """Return the bytes of an event; a response is completed before."""
+        if isinstance(event, h11.Response):
+            event = h11.Response(
+                status_code=event.status_code,
+                headers=add_security_headers(event.headers),
+                reason=event.reason,
+            )
+        return super().send(event)
+
+
+class SecuredHandshake(ServerProtocol):
+    """A WebSocket whose handshake response, accepted or rejected, has the security headers."""
+
+    def send_response(self, response: Response) -> None:
+        """Complete the response and send it."""
+        sent = [(name.encode(), value.encode()) for name, value in response.headers.raw_items()]
+        for name, value in add_security_headers(sent)[len(sent) :]:
+            response.headers[name.decode()] = value.decode()
+        super().send_response(response)
+
+
 class BoundHttp(H11Protocol):
     """HTTP that closes connections whose requests do not arrive completely in time."""
 
     _overdue: asyncio.TimerHandle | None = None
+
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        super().__init__(*arguments, **named)
+        self.conn = SecuredHttp(h11.SERVER, self.conn._max_incomplete_event_size)
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
         """Wait for the first request."""
@@ -71,6 +107,8 @@ class BoundWebSocket(WebSocketsSansIOProtocol):
 
     def __init__(self, *arguments: Any, **options: Any) -> None:
         super().__init__(*arguments, **options)
+        # Without extensions: messages are not compressed (`ws_per_message_deflate`).
+        self.conn = SecuredHandshake(max_size=self.config.ws_max_size, logger=self.logger)
         self._sent = self._pinged = self._arrived = self._shrunk_at = 0
         """Bytes of messages: sent, up to the last ping and pong, up to the last smaller window."""
         self._window = FIRST_WINDOW_BYTES

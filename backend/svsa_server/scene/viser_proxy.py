@@ -10,7 +10,6 @@ import contextlib
 import gzip
 import hashlib
 import math
-import re
 import ssl
 from collections.abc import Awaitable, Callable
 from typing import NamedTuple
@@ -29,7 +28,7 @@ from svsa.errors import SvsaError
 from svsa_server.access.origin import is_same_origin
 from svsa_server.access.owned import check_owned
 from svsa_server.access.permissions import OBSERVER, allow
-from svsa_server.problems import UnknownError
+from svsa_server.security_headers import POLICY, VIEWER_POLICY
 
 MAX_BROWSER_MESSAGE_BYTES = 4096
 MAX_SCENE_MESSAGE_BYTES = 16 * 1024 * 1024
@@ -38,19 +37,16 @@ _SEND_TIMEOUT_S = 20.0
 _NO_PEER = ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT)
 """No peer verification: the connection to a port of this machine is not encrypted."""
 _SUBPROTOCOL_PREFIX = "viser-v"
-_KEPT_HEADERS = ("content-type",)
-_FILE = re.compile(r"[\w./ -]{1,200}", re.ASCII)
-"""Paths of viser's files. viser's server fails on some other paths."""
 _INJECTED = (
+    # viser takes a server, a recording and more from its address. Only what the lab's page sets is
+    # kept, before any script of viser runs.
+    b"<script>history.replaceState(null,'','?'+new URLSearchParams("
+    b"[...new URLSearchParams(location.search)]"
+    b".filter(([name])=>/^(darkMode|initialCamera[A-Z][A-Za-z]*)$/.test(name))))</script>"
     # viser reconnects only if the document has the focus, which a frame rarely has.
     b"<script>document.hasFocus=()=>true</script>"
     b"<style>[data-dock-root]>:not(:first-child),.mantine-Paper-root,"
     b".mantine-Notifications-root{display:none!important}</style>"
-)
-_CONTENT_SECURITY_POLICY = (
-    "default-src 'none'; script-src 'unsafe-inline' 'unsafe-eval' blob:; worker-src blob:; "
-    "style-src 'unsafe-inline'; img-src data: blob:; font-src data:; "
-    "connect-src 'self' data: blob:; frame-ancestors 'self'"
 )
 
 
@@ -124,13 +120,13 @@ class ViserProxy:
 
     @property
     def routes(self) -> list[BaseRoute]:
-        """Routes for the application: the page, its files and the WebSocket."""
+        """Routes for the application: the page, which is viser's only file, and the WebSocket."""
         return [
             Route("/viser/{session}", self._redirect, methods=["GET"]),
             WebSocketRoute("/viser/{session}", self._relay),
             Route("/viser/{session}/", self._serve_page, methods=["GET"]),
             WebSocketRoute("/viser/{session}/", self._relay),
-            Route("/viser/{session}/{path:path}", self._serve_file, methods=["GET"]),
+            Route("/viser/{session}/index.html", self._redirect, methods=["GET"]),
         ]
 
     async def close(self) -> None:
@@ -142,10 +138,12 @@ class ViserProxy:
     @allow(OBSERVER)
     async def _redirect(self, request: Request) -> Response:
         query = f"?{request.url.query}" if request.url.query else ""
-        return RedirectResponse(f"{request.url.path}/{query}")
+        folder = request.url.path.removesuffix("/index.html")
+        return RedirectResponse(f"{folder}/{query}")
 
     @allow(OBSERVER)
     async def _serve_page(self, request: Request) -> Response:
+        await check_owned("session", request.path_params["session"])
         if self._page is None:
             try:
                 self._page = await self._load_page(request)
@@ -155,7 +153,7 @@ class ViserProxy:
             "ETag": self._page.etag,
             "Cache-Control": "no-cache",
             "Vary": "Accept-Encoding",
-            "Content-Security-Policy": _CONTENT_SECURITY_POLICY,
+            POLICY: VIEWER_POLICY,
         }
         if request.headers.get("if-none-match") == self._page.etag:
             return Response(status_code=304, headers=headers)
@@ -165,28 +163,15 @@ class ViserProxy:
         return Response(self._page.plain, headers=headers, media_type="text/html")
 
     async def _load_page(self, request: Request) -> _Page:
-        answer = await self._fetch(request, "/")
+        answer = await self._fetch(request)
         answer.raise_for_status()
         plain = answer.content.replace(b"<head>", b"<head>" + _INJECTED, 1)
         etag = f'"{hashlib.sha256(plain).hexdigest()[:32]}"'
         return _Page(plain, await asyncio.to_thread(gzip.compress, plain, 6), etag)
 
-    @allow(OBSERVER)
-    async def _serve_file(self, request: Request) -> Response:
-        path = request.path_params["path"]
-        if not _FILE.fullmatch(path):
-            raise UnknownError(f"The 3D view has no file {path[:80]!r}.")
-        try:
-            answer = await self._fetch(request, "/" + path)
-        except httpx.HTTPError:
-            return Response("The 3D view is not running.", 503, media_type="text/plain")
-        headers = {k: answer.headers[k] for k in _KEPT_HEADERS if k in answer.headers}
-        return Response(answer.content, answer.status_code, headers=headers)
-
-    async def _fetch(self, request: Request, path: str) -> httpx.Response:
-        await check_owned("session", request.path_params["session"])
+    async def _fetch(self, request: Request) -> httpx.Response:
         port = await self._find_port(request.path_params["session"])
-        address = httpx.URL(scheme="http", host="127.0.0.1", port=port, path=path)
+        address = httpx.URL(scheme="http", host="127.0.0.1", port=port, path="/")
         if self._http is None:
             self._http = httpx.AsyncClient(
                 verify=_NO_PEER, trust_env=False, timeout=_CONNECT_TIMEOUT_S

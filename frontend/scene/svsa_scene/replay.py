@@ -30,7 +30,7 @@ MAX_LANES = 4
 
 _TITLE_MARK = "REPLAY_TITLE"
 _RUN_MARK = '"REPLAY_RUN"'
-_POLICY = (
+REPLAY_POLICY = (
     "default-src 'none'; script-src 'unsafe-inline' 'unsafe-eval' data: blob:;"
     " style-src 'unsafe-inline'; img-src data: blob:; font-src data:; media-src data: blob:;"
     " connect-src data: blob:; worker-src data: blob:; frame-src 'self'; base-uri 'none';"
@@ -191,7 +191,7 @@ def _read_template() -> str:
 
 
 def _fill(template: str, title: str, run: str) -> str:
-    policy = f'<meta http-equiv="Content-Security-Policy" content="{_POLICY}" />'
+    policy = f'<meta http-equiv="Content-Security-Policy" content="{REPLAY_POLICY}" />'
     head, _, rest = template.partition("<head>")
     before, _, rest = rest.partition(_TITLE_MARK)
     middle, mark, end = rest.partition(_RUN_MARK)

@@ -11,11 +11,13 @@ from fastapi.responses import StreamingResponse
 
 from svsa.runs.records.export.formats import EXPORT_KINDS, build_file_name, get_kind
 from svsa.runs.records.resimulation import Comparison, check_simulated
+from svsa_scene.replay import REPLAY_POLICY
 from svsa_server.access.permissions import OBSERVER, allow
 from svsa_server.routes.depends import BUSY, REFUSALS, RunId, Runs, Work
 from svsa_server.routing import build_router
 from svsa_server.runs.work import compare, write_export
 from svsa_server.schemas.runs.run import ExportName
+from svsa_server.security_headers import POLICY
 
 CHUNK_BYTES = 1 << 18
 REPLAY_AGE_S = 600
@@ -76,9 +78,7 @@ def send_page(file: IO[bytes]) -> StreamingResponse:
         "Cache-Control": f"private, max-age={REPLAY_AGE_S}",
         "Vary": "Cookie, Authorization",
         # The page contains its policy, for offline use; `frame-ancestors` works only in a header.
-        "Content-Security-Policy": "frame-ancestors 'self'",
-        "X-Content-Type-Options": "nosniff",
-        "Referrer-Policy": "no-referrer",
+        POLICY: f"{REPLAY_POLICY}; frame-ancestors 'self'",
     }
     return _send(file, "text/html", headers)
 

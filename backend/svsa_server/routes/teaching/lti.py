@@ -23,6 +23,7 @@ from svsa_server.lti.launch_error import LaunchError
 from svsa_server.problems import UnknownError
 from svsa_server.routes.access.access import set_cookie
 from svsa_server.routes.access.classroom import find_class
+from svsa_server.security_headers import FRAMED_POLICY, POLICY
 
 if TYPE_CHECKING:
     from svsa_server.lti.tool import LtiTool
@@ -118,7 +119,7 @@ def _offer_window(asked: dict[str, str]) -> HTMLResponse:
         f"<style>{_STYLE}</style><main><h1>SVSA Lab</h1>"
         "<p>The lab opens in a window of its own, not inside this page.</p>"
         f'<p><a href="{link}" target="_blank" rel="noopener">Open the lab</a></p></main></html>',
-        headers={"Content-Security-Policy": "default-src 'none'; style-src 'unsafe-inline'"},
+        headers={POLICY: FRAMED_POLICY},
     )
 
 
@@ -127,4 +128,5 @@ def _refuse(request: Request, error: LaunchError) -> Response:
         action="lti launch", person=None, name=None, role=None, platform=None, place=None,
         problem=str(error)[:500],
     )  # fmt: skip
-    return PlainTextResponse(f"This launch was rejected. {error}\n", 401)
+    message = f"This launch was rejected. {error}\n"
+    return PlainTextResponse(message, 401, {POLICY: FRAMED_POLICY})
