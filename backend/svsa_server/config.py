@@ -47,6 +47,13 @@ class Settings(BaseSettings):
         description="Maximum number of private sessions of one student. The instructor has no"
         " limit",
     )
+    max_connections: int = Field(
+        default=600,
+        ge=8,
+        le=10_000,
+        description="Maximum number of connections of one address. A class behind one router has"
+        " one address: 60 students have up to 10 each",
+    )
     idle_s: float = Field(
         default=600.0, ge=1, description="Time after which an unused private session ends, s"
     )

@@ -16,6 +16,7 @@ from starlette.types import Message, Receive, Scope, Send
 import svsa
 from svsa.hardware.session.session import BenchSession
 from svsa.runs.session.session import Session
+from svsa_server.access.admission import HEALTH
 from svsa_server.access.guard import AccessGuard, find_path
 from svsa_server.access.owned import Kind, Owner
 from svsa_server.app_thread import AppThread, CallBridge
@@ -33,7 +34,6 @@ END_SILENT_S = 5.0
 LONGEST_END_S = 60.0
 """Time after which the server ends even if its sessions are not closed, s."""
 
-HEALTH = f"{API}/health"
 _LAB_STOP = f"{API}/quick-stop"
 _STOPS = {_LAB_STOP, f"{API}/sessions/{SHARED_SESSION}/quick-stop"}
 _log = logging.getLogger("svsa")

@@ -45,6 +45,13 @@ def test_each_container_has_a_limit_of_memory_and_processes(name: str) -> None:
             assert {"mem_limit", "pids_limit"} <= {*service}
 
 
+def test_containers_and_unit_allow_the_connections_of_a_class() -> None:
+    common = read_compose("lab")["services"]["lab"]
+    unit = (DEPLOY / "svsa.service").read_text(encoding="utf-8")
+    limits = [common["ulimits"]["nofile"], int(unit.partition("LimitNOFILE=")[2].split()[0])]
+    assert min(limits) > 2 * Settings.model_fields["max_connections"].default
+
+
 @pytest.mark.parametrize("name", LABS)
 def test_documented_command_sets_the_required_variables(name: str) -> None:
     text = (DEPLOY / f"{name}.yaml").read_text(encoding="utf-8")

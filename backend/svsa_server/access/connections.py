@@ -2,6 +2,7 @@
 
 Such clients block no other client, but each keeps a socket and unsent data as long as its machine
 keeps the connection open. uvicorn closes such a WebSocket only once all data were sent.
+`Admission` limits how many connections there are.
 
 Answers that the application does not give, such as that to an invalid request, get the security
 headers here.
@@ -10,7 +11,7 @@ headers here.
 import asyncio
 import math
 import struct
-from typing import Any
+from typing import Any, cast
 
 import h11
 from uvicorn.protocols.http.h11_impl import H11Protocol
@@ -19,6 +20,7 @@ from websockets.frames import Frame
 from websockets.http11 import Response
 from websockets.server import ServerProtocol
 
+from svsa_server.access.admission import Admission
 from svsa_server.security_headers import add_security_headers
 
 PING_EVERY_BYTES = 4096
@@ -59,13 +61,21 @@ class BoundHttp(H11Protocol):
 
     _overdue: asyncio.TimerHandle | None = None
 
-    def __init__(self, *arguments: Any, **named: Any) -> None:
+    def __init__(self, *arguments: Any, admission: Admission, **named: Any) -> None:
         super().__init__(*arguments, **named)
+        self._admission = admission
+        self._has_room = True
         self.conn = SecuredHttp(h11.SERVER, self.conn._max_incomplete_event_size)
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
         """Wait for the first request."""
         super().connection_made(transport)
+        address = self.client[0] if self.client else ""
+        # uvicorn's middleware knows the trusted proxies (FORWARDED_ALLOW_IPS).
+        proxies = getattr(self.app, "trusted_hosts", ())
+        self._has_room = self._admission.enter(transport, address, proxies)
+        if not self._has_room:
+            self.app = cast(Any, self._admission.serve_urgent)
         self._watch()
 
     def data_received(self, data: bytes) -> None:
@@ -74,16 +84,29 @@ class BoundHttp(H11Protocol):
         self._watch()
 
     def connection_lost(self, exc: Exception | None) -> None:
-        """Cancel the timer."""
+        """Cancel the timer, and leave room for another connection."""
         self._stop_watching()
+        self._admission.leave(self.transport)
         super().connection_lost(exc)
+
+    def on_response_complete(self) -> None:
+        """Wait for the next request."""
+        super().on_response_complete()
+        if self.conn.their_state is h11.IDLE:
+            self._admission.wait(self.transport)
+
+    def _should_upgrade(self) -> bool:
+        return self._has_room and super()._should_upgrade()
 
     def _watch(self) -> None:
         is_awaited = self.conn.their_state in (h11.IDLE, h11.SEND_BODY)
         is_upgraded = self.transport.get_protocol() is not self
         if not is_awaited or is_upgraded or self.transport.is_closing():
             self._stop_watching()
-        elif self._overdue is None and self.config.ws_ping_timeout is not None:
+            self._admission.begin(self.transport)
+            return
+        self._admission.wait(self.transport)
+        if self._overdue is None and self.config.ws_ping_timeout is not None:
             silence_s = (self.config.ws_ping_interval or 0.0) + self.config.ws_ping_timeout
             self._overdue = self.loop.call_later(silence_s, self.transport.abort)
 
@@ -105,8 +128,9 @@ class BoundWebSocket(WebSocketsSansIOProtocol):
     and unsent data are discarded. A large message on a slow link delays the pong, but not the data.
     """
 
-    def __init__(self, *arguments: Any, **options: Any) -> None:
-        super().__init__(*arguments, **options)
+    def __init__(self, *arguments: Any, admission: Admission, **named: Any) -> None:
+        super().__init__(*arguments, **named)
+        self._admission = admission
         # Without extensions: messages are not compressed (`ws_per_message_deflate`).
         self.conn = SecuredHandshake(max_size=self.config.ws_max_size, logger=self.logger)
         self._sent = self._pinged = self._arrived = self._shrunk_at = 0
@@ -160,7 +184,8 @@ class BoundWebSocket(WebSocketsSansIOProtocol):
             self._window, self._shrunk_at = max(self._window // 2, MIN_WINDOW_BYTES), self._sent
 
     def connection_lost(self, exc: Exception | None) -> None:
-        """Release a message that waits."""
+        """Release a message that waits, and leave room for another connection."""
+        self._admission.leave(self.transport)
         super().connection_lost(exc)
         self._room.set()
 

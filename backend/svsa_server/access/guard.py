@@ -80,7 +80,7 @@ class AccessGuard:
             self._check_place(scope)
             scope[PERSON] = await self._admit(scope)
         except Refusal as refusal:
-            await _refuse(scope, receive, send, refusal)
+            await refuse(scope, receive, send, refusal)
             return
         person = scope[PERSON]
         begin_claims(person, partial(self._find_owner, scope))
@@ -201,7 +201,8 @@ def _bound_body(scope: Scope, receive: Receive) -> Receive:
     return receive_bounded
 
 
-async def _refuse(scope: Scope, receive: Receive, send: Send, refusal: Refusal) -> None:
+async def refuse(scope: Scope, receive: Receive, send: Send, refusal: Refusal) -> None:
+    """Answer a request or WebSocket with the reason why it is rejected."""
     if scope["type"] == "websocket" and "websocket.http.response" not in scope.get(
         "extensions", {}
     ):

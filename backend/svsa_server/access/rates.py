@@ -27,10 +27,15 @@ _COUNTED_WHEN_WRONG = frozenset({"POST /api/v1/login"})
 _WORDS: dict[Kind, str] = {"codes": "wrong class codes of a name", "logins": "wrong logins"}
 
 
+def is_stop(method: str, path: str) -> bool:
+    """Return whether a request pauses a session or stops it, which is never limited."""
+    return f"{method} /{path.rpartition('/')[2]}" in _STOPS
+
+
 def find_kind(method: str, path: str) -> Kind | None:
     """Return the kind of request for the rate limit; reading and stopping are not limited."""
     whole, last = f"{method} {path}", f"{method} /{path.rpartition('/')[2]}"
-    if method not in CHANGING or last in _STOPS or whole in _COUNTED_WHEN_WRONG:
+    if method not in CHANGING or is_stop(method, path) or whole in _COUNTED_WHEN_WRONG:
         return None
     return _KINDS.get(whole) or _KINDS.get(last, "commands")
 

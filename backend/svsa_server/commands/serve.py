@@ -1,14 +1,16 @@
 """Listen, print the address, and serve until a signal ends the server."""
 
+import asyncio
 import gc
 import logging
 import os
 import socket
 import sys
 import threading
+from functools import partial
 from importlib import import_module
 from pathlib import Path
-from typing import IO
+from typing import IO, cast
 
 import uvicorn
 from pythonjsonlogger.json import JsonFormatter
@@ -25,12 +27,14 @@ from svsa.inputs.data_folder import DATA_VARIABLE, find_data_folder
 from svsa.inputs.file_lock import try_lock
 from svsa.runs.design_file import read_design
 from svsa.teaching.course.file import read_course
+from svsa_server.access.admission import Admission, raise_descriptor_limit
 from svsa_server.access.class_keys import FILE, ClassKeys, ShownOnce
 from svsa_server.access.connections import BoundHttp, BoundWebSocket
 from svsa_server.access.origin import EVERYWHERE
 from svsa_server.commands.compiling import compile_laws, prepare_apart
 from svsa_server.commands.console import HINT, watch_keyboard
 from svsa_server.config import Settings
+from svsa_server.repeated_errors import limit_repeated_errors
 
 SEND_BUFFER_BYTES = 64 * 1024
 KEPT_S = 15
@@ -39,6 +43,10 @@ on a connection that is closed at that moment is lost.
 """
 
 
+BACKLOG = 2048
+"""Connections that the system keeps until they are accepted."""
+ACCEPTED_AT_ONCE = 8
+"""Connections that are accepted before those over the limit are closed."""
 LOCK_FILE = "server.lock"
 LONGEST_EXIT_S = 10.0
 """Maximum time from closing the sessions to the exit, s, while a computing thread is waited for."""
@@ -80,6 +88,9 @@ class AnnouncedServer(uvicorn.Server):
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
         """Start as uvicorn does, then print the announcement."""
         await super().startup(sockets)
+        # Only now: asyncio also takes this number for the connections that it accepts at once.
+        for listener in sockets or ():
+            listener.listen(BACKLOG)
         gc.freeze()
         gc.enable()
         if self.started:
@@ -149,14 +160,16 @@ def run_server(
     # Sessions run in a separate thread: if one blocks, health checks, the quick stop and the
     # shutdown still work in this thread.
     lab = ResponsiveApp(build_app(config, shared, keys, chosen, print_line), shared)
+    admission = Admission(lab, config.max_connections, raise_descriptor_limit())
     server = AnnouncedServer(
         uvicorn.Config(
-            lab,
+            admission,
             log_level="warning",
             # In JSON format all loggers write through one handler.
             log_config=None if config.log == "json" else LOGGING_CONFIG,
-            http=BoundHttp,
-            ws=BoundWebSocket,
+            http=cast(type[asyncio.Protocol], partial(BoundHttp, admission=admission)),
+            ws=cast(type[asyncio.Protocol], partial(BoundWebSocket, admission=admission)),
+            backlog=ACCEPTED_AT_ONCE,
             ws_max_size=65536,
             # A client that stops reading is noticed at the next ping, so both count.
             ws_ping_interval=config.silence_s / 2.0,
@@ -167,6 +180,7 @@ def run_server(
             root_path=config.root_path,
         )
     )
+    limit_repeated_errors()
     server.announcement = describe_address(host, chosen, listener.getsockname()[1])
     if keys is not None:
         server.announcement += f"\n{describe_class(reported)}"
