@@ -254,6 +254,7 @@ def prepare(
     """
     from svsa.control.installed import LawError, list_law_names
     from svsa.control.law_names import AnyLaw
+    from svsa.numerics.exponential import exp
     from svsa.runs.experiment import build_actuator_experiment
     from svsa.runs.result.simulate import simulate
     from svsa.runs.result.simulate_arm import simulate_arm
@@ -267,6 +268,7 @@ def prepare(
         text = f"First start: compiling the control loop (about 10 s, once) and {law} (3 s each) …"
         _messages.print(text)
     with _messages.status(text):
+        exp(0.0)  # of the state estimator, which a user may add to a running session
         for name in names:
             try:
                 experiment = "4a" if actuator == SVSA else build_actuator_experiment(actuator, name)
