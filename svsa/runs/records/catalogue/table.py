@@ -85,7 +85,7 @@ def prepare(connection: sqlite3.Connection) -> None:
     # The complete check: a damaged index hides runs or lists them twice.
     (verdict,) = connection.execute("PRAGMA integrity_check(1)").fetchone()
     if verdict != "ok":
-        raise DamagedCatalogueError(str(verdict))
+        raise DamagedCatalogueError(" ".join(str(verdict).split()))  # in one line
 
 
 def _is_current(connection: sqlite3.Connection) -> bool:

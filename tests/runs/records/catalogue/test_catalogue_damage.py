@@ -95,9 +95,13 @@ def check_damages(data: Path, name: str, seeds: Iterable[int]) -> None:
     (*range(FEW // 2), *FORMER),
     pytest.param(range(MANY), marks=pytest.mark.exhaustive),
 ], ids=["few", "many"])  # fmt: skip
-def test_damaged_catalogue_is_rebuilt_at_the_start(data: Path, seeds: Iterable[int]) -> None:
+def test_damaged_catalogue_is_rebuilt_at_the_start(
+    data: Path, seeds: Iterable[int], caplog: pytest.LogCaptureFixture
+) -> None:
     shutil.copy(data / NAME, data / "intact.sqlite")
     check_damages(data, NAME, seeds)
+    assert caplog.messages
+    assert not any("\n" in message for message in caplog.messages)
 
 
 @pytest.mark.parametrize("ending", ["-wal", "-shm", "-journal"])
