@@ -8,7 +8,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from svsa.actuators.signals import MEASURED, TORQUES, Disturbance, Measurement, State, Torque
+from svsa.actuators.signals import (
+    CHANNEL_INDEX,
+    CHANNEL_NAMES,
+    MEASURED,
+    TORQUES,
+    Disturbance,
+    Measurement,
+    State,
+    Torque,
+)
 from svsa.hardware.reading import Reading
 from svsa.hardware.real_motors import RealMotors
 from svsa.hardware.realtime.loop import BenchLoop
@@ -18,7 +27,11 @@ from svsa.hardware.session.run import BenchRun
 from svsa.runs.command import Command, fold
 from svsa.runs.records.header import PlantKind, RecordError
 from svsa.runs.records.reader import Record
-from svsa.runs.records.resimulation import read_origin
+from svsa.runs.records.resimulation import (
+    compare_channels,
+    describe_not_compared,
+    read_origin,
+)
 from svsa.runs.replay import play
 from svsa.simulation.loop.measured import Actuation
 
@@ -33,6 +46,7 @@ class Verified(NamedTuple):
         ticks: Number of samples.
         missed: Number of samples that the loop missed.
         lanes: Number of simulated lanes in parallel.
+        not_compared: Channels that only the record or only this version has.
         share_as_limited: Share of the samples in which the torque sent is the limited torque of the
             law, to a step of the drive's current; in the others the guard reduced it.
     """
@@ -41,6 +55,7 @@ class Verified(NamedTuple):
     ticks: int
     missed: int
     lanes: int
+    not_compared: tuple[str, ...]
     share_as_limited: float
 
     @property
@@ -57,6 +72,7 @@ class Verified(NamedTuple):
             f" errors were computed again{with_lane}: the same, bit for bit. The torques sent are"
             f" those that its law commands, to a step of the drives, in"
             f" {100.0 * self.share_as_limited:.1f} % of the samples, and never beyond them."
+            f"{describe_not_compared(self.not_compared)}"
         )
 
 
@@ -101,7 +117,16 @@ def verify_bench_record(record: Record) -> Verified:
     before, later = commands[: start.commands], commands[start.commands :]
     for command in before:
         configuration = fold(configuration, command, is_bench=True)
-    samples = record.samples.transpose(1, 0, 2)
+    common, not_compared = compare_channels(header.channel_names, CHANNEL_NAMES)
+    if missing := [
+        CHANNEL_NAMES[index]
+        for index in (*MEASURED, *TORQUES)
+        if CHANNEL_NAMES[index] not in common
+    ]:
+        raise RecordError(
+            f"Run {header.run_id} cannot be verified: its record has no {', '.join(missing)}."
+        )
+    samples = record.read_channels(CHANNEL_NAMES).transpose(1, 0, 2)
     plant, rows = RecordedPlant(samples[0]), SampleArray(record.tick_count)
     actuation = Actuation(start.latency_s, start.lag_s)
     loop = BenchLoop(plant, actuation, start.mu0, configuration, rows)
@@ -111,11 +136,12 @@ def verify_bench_record(record: Record) -> Verified:
     run, again = BenchRun(configuration, begun, rows), np.empty_like(samples)
     for _ in play(run, later, record.tick_count, again):
         pass
-    _compare(record, again, samples)
+    _compare(record, again, samples, common)
     real = RealMotors.of(configuration.actuator)
     share = _compare_torques(record, real, plant, start.torque_step_nm)
     missed = int(np.isnan(plant.sent[:, 0]).sum())
-    return Verified(header.plant, record.tick_count, missed, len(samples) - 1, share)
+    lanes = len(samples) - 1
+    return Verified(header.plant, record.tick_count, missed, lanes, not_compared, share)
 
 
 def _follow(loop: BenchLoop, plant: RecordedPlant, commands: list[Command], record: Record) -> None:
@@ -134,9 +160,15 @@ def _follow(loop: BenchLoop, plant: RecordedPlant, commands: list[Command], reco
         loop.tick(0.0, tick - first)
 
 
-def _compare(record: Record, again: np.ndarray, samples: np.ndarray) -> None:
-    """Raise `RecordError` at the first different sample. Both (lanes, ticks, channels)."""
-    differs = again.view(np.uint64) != np.ascontiguousarray(samples).view(np.uint64)
+def _compare(
+    record: Record, again: np.ndarray, samples: np.ndarray, common: tuple[str, ...]
+) -> None:
+    """Raise `RecordError` at the first different sample of the common channels.
+
+    Both arrays (lanes, ticks, channels).
+    """
+    columns = [CHANNEL_INDEX[name] for name in common]
+    differs = again[..., columns].view(np.uint64) != samples[..., columns].view(np.uint64)
     if not differs.any():
         return
     tick = int(np.argmax(differs.any(axis=(0, 2))))
@@ -144,7 +176,7 @@ def _compare(record: Record, again: np.ndarray, samples: np.ndarray) -> None:
     header = record.header
     raise RecordError(
         f"Run {header.run_id} does not follow from what it measured and sent: worked out again,"
-        f" {header.lanes[lane]}.{header.channel_names[channel]} differs at tick {tick}."
+        f" {header.lanes[lane]}.{common[channel]} differs at tick {tick}."
     )
 
 

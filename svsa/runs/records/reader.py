@@ -96,14 +96,24 @@ class Record:
     def read_channels(
         self, channels: Sequence[str], start: int = 0, stop: int | None = None
     ) -> np.ndarray:
-        """Read rows start … stop of some channels, (ticks, lanes, channels)."""
-        lanes = self.header.lanes
-        names = [[name_column(lane, channel) for channel in channels] for lane in lanes]
-        wanted = list(dict.fromkeys(name for row in names for name in row))
+        """Read rows start … stop of some channels, (ticks, lanes, channels).
+
+        A channel that the record lacks is NaN: the version that recorded it did not have it.
+        """
+        lanes, recorded = self.header.lanes, self.header.channel_names
+        places = {
+            (lane, place): name_column(name, channel)
+            for lane, name in enumerate(lanes)
+            for place, channel in enumerate(channels)
+            if channel in recorded
+        }
         parts = [np.empty((0, len(lanes), len(channels)))]
-        for batch in self.iterate_batches(wanted, start, stop):
-            columns = {name: get_values(batch, name) for name in wanted}
-            parts.append(np.stack([np.stack([columns[n] for n in row], 1) for row in names], 1))
+        # The tick, because a batch without any column has no rows.
+        for batch in self.iterate_batches(["tick", *dict.fromkeys(places.values())], start, stop):
+            rows = np.full((batch.num_rows, len(lanes), len(channels)), np.nan)
+            for (lane, place), column in places.items():
+                rows[:, lane, place] = get_values(batch, column)
+            parts.append(rows)
         return np.concatenate(parts)
 
 

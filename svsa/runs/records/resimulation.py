@@ -1,10 +1,11 @@
 """Comparison of a record with its own simulation: same configuration, seed and commands."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
+from svsa.actuators.signals import CHANNEL_INDEX, CHANNEL_NAMES
 from svsa.control.installed import OWN_LAW
 from svsa.runs.command import Command, read_command
 from svsa.runs.configuration import Configuration
@@ -22,11 +23,13 @@ class Comparison:
         ticks: Number of ticks compared.
         first_difference: Tick and channel ("lane.channel") of the first sample that differs, or
             None.
+        not_compared: Channels that only the record or only this version has.
     """
 
     identical: bool
     ticks: int
     first_difference: tuple[int, str] | None
+    not_compared: tuple[str, ...] = ()
 
 
 def read_origin(record: Record) -> tuple[Configuration, list[Command]]:
@@ -60,37 +63,62 @@ def check_simulated(record: Record) -> None:
 
 
 def compare_with_simulation(record: Record) -> Comparison:
-    """Simulate a recorded run again from its record, and compare every bit.
+    """Simulate a recorded run again from its record, and compare every bit of the common channels.
 
     Raises:
-        RecordError: If the run was not simulated (see `check_simulated`), or has other channels
-            than this version.
+        RecordError: If the run was not simulated (see `check_simulated`), or has other lanes.
     """
     check_simulated(record)
     configuration, commands = read_origin(record)
+    names = record.header.channel_names
+    common, not_compared = compare_channels(names, CHANNEL_NAMES)
+    recorded = [names.index(name) for name in common]
     again = _iterate_rows(
-        simulate_again(configuration, commands, record.first_tick, record.tick_count)
+        simulate_again(configuration, commands, record.first_tick, record.tick_count),
+        [CHANNEL_INDEX[name] for name in common],
     )
     compared = 0
     for tick, rows in record.iterate():
-        for offset, row in enumerate(rows):
+        for offset, row in enumerate(rows[:, :, recorded]):
             simulated = next(again, None)
             if simulated is None:
-                return Comparison(False, compared, (tick + offset, "the simulation ended"))
+                ended = tick + offset, "the simulation ended"
+                return Comparison(False, compared, ended, not_compared)
             if simulated.shape != row.shape:
-                raise RecordError(f"Record {record.header.run_id} has other lanes or channels.")
+                raise RecordError(f"Record {record.header.run_id} has other lanes.")
             # Compare bytes, not values: NaN then equals NaN, and −0.0 differs from 0.0.
             if simulated.tobytes() != row.tobytes():
-                return Comparison(False, compared, (tick + offset, _name(record, simulated, row)))
+                lane, channel = np.argwhere(simulated.view(np.uint64) != row.view(np.uint64))[0]
+                different = tick + offset, f"{record.header.lanes[lane]}.{common[channel]}"
+                return Comparison(False, compared, different, not_compared)
             compared += 1
-    return Comparison(True, compared, None)
+    return Comparison(True, compared, None, not_compared)
 
 
-def _iterate_rows(stretches: Iterator[np.ndarray]) -> Iterator[np.ndarray]:
+def _iterate_rows(stretches: Iterator[np.ndarray], channels: list[int]) -> Iterator[np.ndarray]:
     for samples in stretches:
-        yield from samples.transpose(1, 0, 2)
+        yield from np.ascontiguousarray(samples.transpose(1, 0, 2)[:, :, channels])
 
 
-def _name(record: Record, simulated: np.ndarray, row: np.ndarray) -> str:
-    lane, channel = np.argwhere(simulated.view(np.uint64) != row.view(np.uint64))[0]
-    return f"{record.header.lanes[lane]}.{record.header.channel_names[channel]}"
+def compare_channels(
+    own: Sequence[str], others: Sequence[str]
+) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Return the channels that both have, in the order of `own`, and those that one of them lacks.
+
+    Args:
+        own: Names of channels.
+        others: Names of channels to compare with.
+
+    Returns:
+        Common channels, and channels that cannot be compared.
+    """
+    common = tuple(name for name in own if name in others)
+    rest = tuple(name for name in dict.fromkeys((*own, *others)) if name not in common)
+    return common, rest
+
+
+def describe_not_compared(channels: Sequence[str]) -> str:
+    """Return a sentence that names channels without comparison; "" without any."""
+    if not channels:
+        return ""
+    return f" Not compared, since they are not in both versions: {', '.join(channels)}."

@@ -9,6 +9,7 @@ from svsa.errors import ParameterError, Violation
 from svsa.inputs.checked import Checked, Number, quantity
 from svsa.runs.records.header import RecordError
 from svsa.runs.records.reader import Record
+from svsa.runs.records.resimulation import compare_channels
 from svsa.runs.records.stream import TIME
 
 
@@ -73,6 +74,7 @@ class Verdict:
         own_ticks: Length of the run, ticks.
         other_ticks: Length of the reference run, ticks.
         channels: Results by channel.
+        not_compared: Channels that only one of both runs has.
     """
 
     held: bool
@@ -80,6 +82,7 @@ class Verdict:
     own_ticks: int
     other_ticks: int
     channels: tuple[ChannelVerdict, ...]
+    not_compared: tuple[str, ...]
 
 
 def judge(
@@ -112,7 +115,8 @@ def judge(
             f"Runs {own.run_id} and {others.run_id} cannot be compared: {len(own.lanes)} lanes at"
             f" {own.period_s:g} s, and {len(others.lanes)} at {others.period_s:g} s."
         )
-    names = [name for name in own.channel_names if name in others.channel_names and name != TIME]
+    common, not_compared = compare_channels(own.channel_names, others.channel_names)
+    names = [name for name in common if name != TIME]
     for name in tolerances:
         if name not in names:
             bound = "a channel of both runs: " + ", ".join(names)
@@ -125,7 +129,7 @@ def judge(
         raise RecordError(f"Runs {own.run_id} and {others.run_id} have nothing to compare.")
     channels = tuple(_judge_channels(run, other, asked, ticks, begins))
     held = left == others_left and all(one.held for one in channels)
-    return Verdict(held, ticks, run.tick_count, other.tick_count, channels)
+    return Verdict(held, ticks, run.tick_count, other.tick_count, channels, not_compared)
 
 
 def _judge_channels(

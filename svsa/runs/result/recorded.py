@@ -68,7 +68,8 @@ def find_record(run: str | Path | Result | ArmResult) -> Record:
 def open_run(run: str | Path) -> Result:
     """Read a recorded run as the `Result` that `svsa.simulate` would have returned.
 
-    Its lanes are the `comparisons`. The samples are those of the record, bit for bit. Commands are
+    Its lanes are the `comparisons`. The samples are those of the record, bit for bit; a channel
+    that the record lacks is NaN, and one that this version does not know is left out. Commands are
     those given while it was recorded or before. `fault` is None also for a record of a version that
     did not write it. On a bench the true disturbance is unknown (NaN). Warns if a newer version
     wrote the record.
@@ -80,8 +81,8 @@ def open_run(run: str | Path) -> Result:
         The run.
 
     Raises:
-        RecordError: If the record cannot be read, has other channels, or has a configuration that
-            this version does not support.
+        RecordError: If the record cannot be read, or has a configuration that this version does not
+            support.
         UnknownRunError: If the id does not exist.
     """
     record = find_record(run)
@@ -90,8 +91,6 @@ def open_run(run: str | Path) -> Result:
         raise RecordError(f"Run {header.run_id} is one of an arm: open it with svsa.open_arm_run.")
     if newer := describe_newer(header.version):
         warnings.warn(f"Run {header.run_id}: {newer}", stacklevel=2)
-    if header.channel_names != CHANNEL_NAMES:
-        raise RecordError(f"Run {header.run_id} has other channels than this version of svsa.")
     try:
         configuration, commands = read_origin(record)
     except ParameterError as error:
@@ -99,7 +98,7 @@ def open_run(run: str | Path) -> Result:
     acting = read_acting(header, record.commands, record.first_tick, record.tick_count)
     law, comparisons = acting.get_values("law")[0], acting.get_values("comparisons")[0]
     laws = (law, *(comparison.law for comparison in comparisons))
-    samples = record.samples.transpose(1, 0, 2)
+    samples = record.read_channels(CHANNEL_NAMES).transpose(1, 0, 2)
     if len(laws) != len(samples):
         laws = header.lanes
     name = header.name or header.run_id
@@ -118,7 +117,8 @@ def open_run(run: str | Path) -> Result:
 def open_arm_run(run: str | Path) -> ArmResult:
     """Read a recorded arm as the `ArmResult` that `svsa.simulate_arm` would have returned.
 
-    The samples are those of the record, bit for bit. The estimated payload is not recorded: NaN.
+    The samples are those of the record, bit for bit; a channel that it lacks is NaN. The estimated
+    payload is not recorded: NaN.
 
     Args:
         run: Id of the run, or its folder.
@@ -127,20 +127,18 @@ def open_arm_run(run: str | Path) -> ArmResult:
         The run; its comparison is the second arm.
 
     Raises:
-        RecordError: For a record that cannot be read, has other channels, is not one of an arm, or
-            has a configuration that this version does not know.
+        RecordError: For a record that cannot be read, is not one of an arm, or has a configuration
+            that this version does not know.
     """
     record = find_record(run)
     header = record.header
     if not header.is_arm:
         raise RecordError(f"Run {header.run_id} is not one of an arm: open it with svsa.open_run.")
-    if header.channel_names != CHANNEL_NAMES:
-        raise RecordError(f"Run {header.run_id} has other channels than this version of svsa.")
     try:
         configuration, commands = read_origin(record)
     except ParameterError as error:
         raise RecordError(f"Run {header.run_id} cannot be opened: {error}") from None
-    samples = record.samples.transpose(1, 0, 2)
+    samples = record.read_channels(CHANNEL_NAMES).transpose(1, 0, 2)
     unknown = np.full((len(samples) // 2, samples.shape[1]), np.nan)
     known = record.fault, header.steps, tuple(commands)
     return build_arm_results(configuration, samples, unknown, *known)
@@ -153,7 +151,8 @@ def resimulate(run: str | Path | Result | ArmResult) -> Comparison:
         run: Id or folder of a recorded run, or a result of `svsa.simulate` or `svsa.simulate_arm`.
 
     Returns:
-        Whether every sample is identical, and the tick and channel of the first one that is not.
+        Whether every sample is identical, the tick and channel of the first one that is not, and
+        the channels that were not compared, since only the record or only this version has them.
 
     Raises:
         RecordError: If the run is of a bench, of a function as controller, or has more than one

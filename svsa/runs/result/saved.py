@@ -5,11 +5,13 @@ from typing import Any
 
 import numpy as np
 
+from svsa.actuators.signals import CHANNEL_INDEX, CHANNELS
 from svsa.control.installed import OWN_LAW
 from svsa.errors import StateError
+from svsa.runs.configuration import Configuration
 from svsa.runs.records.catalogue.entry import RunEntry
 from svsa.runs.records.catalogue.runs import Catalogue
-from svsa.runs.records.header import build_header, is_run_id
+from svsa.runs.records.header import RecordHeader, build_header, is_run_id
 from svsa.runs.records.reader import Record, build_record
 from svsa.runs.records.writer import write_record
 from svsa.runs.result.arm import ArmResult
@@ -46,10 +48,10 @@ def build_result_record(result: Result, **known: Any) -> Record:
         configuration = configuration.changed(law=OWN_LAW)
     samples = np.stack([lane.samples for lane in (result, *result.comparisons)], axis=1)
     given = {"session": SESSION, "name": result.name, "plant": result.plant, "steps": result.steps}
-    header = build_header(configuration, samples.shape[1], **(given | known))
+    header = _build_header(configuration, samples, given | known)
     commands = [(command.tick, command.to_json()) for command in result.commands]
     first_tick = round(float(result.time_s[0]) / header.period_s)
-    return build_record(header, commands, first_tick, samples, result.fault)
+    return build_record(header, commands, first_tick, _select(header, samples), result.fault)
 
 
 def build_arm_result_record(result: ArmResult, **known: Any) -> Record:
@@ -73,9 +75,28 @@ def build_arm_result_record(result: ArmResult, **known: Any) -> Record:
         raise StateError("This run has no samples: it ended before its first tick.")
     samples = np.concatenate([arm.samples for arm in arms]).transpose(1, 0, 2)
     given = {"session": SESSION, "steps": result.steps}
-    header = build_header(result.configuration, samples.shape[1], **(given | known))
+    header = _build_header(result.configuration, samples, given | known)
     commands = [(command.tick, command.to_json()) for command in result.commands]
-    return build_record(header, commands, 0, samples, result.fault)
+    return build_record(header, commands, 0, _select(header, samples), result.fault)
+
+
+def _build_header(
+    configuration: Configuration, samples: np.ndarray, fields: dict[str, Any]
+) -> RecordHeader:
+    """Build the header of samples without the channels that are unknown everywhere.
+
+    `open_run` reads a channel that a record lacks as NaN: saved again, it is missing again.
+    """
+    channels = [
+        channel
+        for index, channel in enumerate(CHANNELS)
+        if not np.isnan(samples[:, :, index]).all()
+    ]
+    return build_header(configuration, samples.shape[1], channels=channels, **fields)
+
+
+def _select(header: RecordHeader, samples: np.ndarray) -> np.ndarray:
+    return samples[:, :, [CHANNEL_INDEX[name] for name in header.channel_names]]
 
 
 def save_run(

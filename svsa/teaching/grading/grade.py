@@ -9,7 +9,7 @@ from svsa.inputs.checked import Checked, Flag, Number, quantity
 from svsa.inputs.extras import __version__
 from svsa.runs.records.catalogue.runs import Catalogue
 from svsa.runs.records.header import RecordError
-from svsa.runs.records.resimulation import compare_with_simulation
+from svsa.runs.records.resimulation import compare_with_simulation, describe_not_compared
 from svsa.runs.result.result import Result
 from svsa.teaching.course.criterion import CriterionResult, Judgement
 from svsa.teaching.course.exercise import Exercise
@@ -63,6 +63,7 @@ def verify_run(catalogue: Catalogue, run_id: str) -> VerifiedRun:
             f"Run {run_id} does not replay: simulated again, {channel} differs at tick {tick}."
         )
     description = f"Simulated again: its {found.ticks} samples are the same, bit for bit."
+    description += describe_not_compared(found.not_compared)
     return VerifiedRun(run_id=run_id, description=description)
 
 

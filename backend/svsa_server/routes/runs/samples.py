@@ -7,7 +7,7 @@ import numpy as np
 from fastapi import Query
 from fastapi.responses import Response
 
-from svsa.actuators.signals import PLOTTED
+from svsa.actuators.signals import CHANNEL_NAMES, PLOTTED
 from svsa.errors import ParameterError, Violation
 from svsa.runs.metrics import MEASURED, Metrics, RunningMetrics
 from svsa.runs.records.decimation import decimate
@@ -104,7 +104,8 @@ def _choose_channels(record: Record, channels: str | None) -> list[str]:
         return [name for name in PLOTTED if name in there] or list(there)
     names = list(dict.fromkeys(name.strip() for name in channels.split(",")))
     for name in names:
-        if name not in there:
+        # null where an older record lacks a channel of this version
+        if name not in there and name not in CHANNEL_NAMES:
             raise ParameterError(Violation("channels", name, "", f"one of {', '.join(there)}"))
     return names
 

@@ -71,6 +71,7 @@ def judge_run(
         begin_s=(run.first_tick + begins[0]) * run.header.period_s,
         other_begin_s=(other.first_tick + begins[1]) * other.header.period_s,
         channels=[build_channel_state(one) for one in verdict.channels],
+        not_compared=list(verdict.not_compared),
         bands={
             name: _draw_bands(other, name, tolerance, begins[1], verdict.ticks, points)
             for name, tolerance in (wanted.tolerances if points else {}).items()

@@ -86,6 +86,7 @@ class RunVerdict(BaseModel):
     begin_s: float = Field(description="Time of the first sample compared")
     other_begin_s: float = Field(description="The same of the other run")
     channels: list[ChannelJudged]
+    not_compared: list[str] = Field(description="Channels that only one of both runs has")
     bands: dict[str, dict[str, Band]] = Field(description="Verdicts by channel and lane")
 
 
