@@ -12,8 +12,18 @@
 #include <math.h>
 
 #define LANES 32
-#define CHANNELS 28
+#define CHANNELS 28  /* as many as `channels` names */
 #define INLINE static inline __attribute__((always_inline))
+
+/* The columns of `sample`: independent of the columns of a record. */
+const char channels[] =
+    "time_s position_reference_rad velocity_reference_rad_per_s stiffness_reference_nm_per_rad "
+    "position_rad velocity_rad_per_s position_estimate_rad velocity_estimate_rad_per_s "
+    "motor1_position_rad motor1_velocity_rad_per_s motor2_position_rad motor2_velocity_rad_per_s "
+    "deflection_rad deflection_limit_rad lever_ratio stiffness_nm_per_rad position_error_rad "
+    "stiffness_error_nm_per_rad torque1_nm torque2_nm disturbance_link_nm disturbance_motor1_nm "
+    "disturbance_motor2_nm estimate_link_nm estimate_motor1_nm estimate_motor2_nm "
+    "position_residual_rad stiffness_residual_nm_per_rad";
 
 /* In the order in which svsa.evaluation.timing.benchmark hands them over. */
 typedef struct {
@@ -180,7 +190,7 @@ INLINE Reference reference(double amplitude, double omega, double time) {
     return (Reference){s, omega * c, -o2 * s, -o2 * omega * c, o2 * o2 * s};
 }
 
-/* samples: (ticks, 28). The ticks done. */
+/* samples: (ticks, CHANNELS). The ticks done. */
 long run_one(const Constants *constants, long ticks, double *samples) {
     const Constants k = *constants;
     Lane lane = {0};

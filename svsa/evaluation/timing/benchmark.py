@@ -49,8 +49,12 @@ FIRST_RUN = (f"import svsa; svsa.simulate({FIGURE!r}, {LAW!r})",)
 
 
 class CLoop(NamedTuple):
-    """The compiled C loop: one run with all its samples, and 32 lanes side by side."""
+    """The compiled C loop: one run with all its samples, and 32 lanes side by side.
 
+    channels: Names of its columns; they do not depend on those of a record.
+    """
+
+    channels: tuple[str, ...]
     run_one: Callable[..., int]
     run_lanes: Callable[..., int]
 
@@ -69,7 +73,8 @@ def build_c_loop(folder: Path) -> CLoop | None:
     )
     loaded = ctypes.CDLL(str(library))
     loaded.run_one.restype = loaded.run_lanes.restype = ctypes.c_long
-    return CLoop(loaded.run_one, loaded.run_lanes)
+    names = ctypes.string_at(ctypes.addressof(ctypes.c_char.in_dll(loaded, "channels"))).decode()
+    return CLoop(tuple(names.split()), loaded.run_one, loaded.run_lanes)
 
 
 def list_c_constants(run: Run) -> np.ndarray:
@@ -97,7 +102,7 @@ def list_c_constants(run: Run) -> np.ndarray:
 
 
 def run_c(loop: CLoop, run: Run, samples: np.ndarray) -> int:
-    """One run of the C loop into samples (ticks, channels); the ticks done."""
+    """One run of the C loop into samples (ticks, its channels); the ticks done."""
     constants = list_c_constants(run)
     return loop.run_one(_point(constants), ctypes.c_long(len(samples)), _point(samples))
 
@@ -138,7 +143,6 @@ def measure(repeats: int = REPEATS) -> dict[str, Any]:
     """
     run = Run(get_figure(FIGURE).build_configuration(LAW))
     ticks = round(DURATION_S / run.period_s)
-    samples = np.empty((ticks, len(CHANNELS)))
     actuators = build_actuator_works()
     batch = build_run_batch([run.configuration] * LANES)
     works: dict[str, Callable[[], object]] = {
@@ -151,6 +155,7 @@ def measure(repeats: int = REPEATS) -> dict[str, Any]:
     with tempfile.TemporaryDirectory(prefix="svsa-bench-") as folder:
         loop = build_c_loop(Path(folder))
         if loop is not None:
+            samples = np.empty((ticks, len(loop.channels)))
             works["c"] = lambda: run_c(loop, run, samples)
             works["c_lanes"] = lambda: run_c_lanes(loop, run, ticks)
         cost = measure_in_turns(works, repeats)
