@@ -37,6 +37,7 @@ from svsa.hardware.cli import bench_check, bench_home
 from svsa.hardware.emulator.cli import emulator
 from svsa.inputs.data_folder import find_data_folder
 from svsa.inputs.extras import require_extra
+from svsa.inputs.terminal import spell_missing_characters
 from svsa.numerics.compilation import is_compiled_before
 from svsa.runs.result.cli import compare
 from svsa.runs.result.progress import hide_progress
@@ -282,6 +283,7 @@ def prepare(
 
 def main() -> None:
     """Entry point: errors of this project are one clear line, not a traceback."""
+    spell_missing_characters()
     for entry in entry_points(group="svsa.commands"):
         app.command(entry.name)(entry.load())
     hide_progress()  # of single runs: the commands have bars
