@@ -32,9 +32,19 @@ def choose_start() -> BaseContext:
     """
     if sys.platform != "linux":
         return multiprocessing.get_context("spawn")
+    from multiprocessing import forkserver, resource_tracker  # of Unix only
+
     context = multiprocessing.get_context("forkserver")
     modules = [name for name in list(sys.modules) if name.startswith("svsa")]
     context.set_forkserver_preload([*modules, "pyarrow.parquet"])  # imported at its first use
+    # The process that is forked ignores Ctrl-C only after its imports. It inherits a blocked signal
+    # from its start on, so that Ctrl-C during the imports neither ends it nor prints a traceback.
+    resource_tracker.ensure_running()  # it would unblock the signal
+    blocked = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        forkserver.ensure_running()
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, blocked)
     return context
 
 

@@ -1,6 +1,7 @@
 """A worker lowers its priority once, at any depth, and starts with imported modules."""
 
 import os
+import subprocess
 import sys
 
 import pytest
@@ -27,3 +28,26 @@ def test_worker_has_the_modules_imported_before_its_start() -> None:
     with start_workers(1) as pool:
         pool.submit(os.getpid).result()
         assert "svsa.numerics.code_cache" in pool.submit(list_read).result()
+
+
+STRUCK_WHILE_IMPORTING = """
+import multiprocessing.forkserver, os, signal
+from svsa.evaluation.workers import start_workers
+
+if __name__ == "__main__":
+    with start_workers(1) as pool:
+        os.kill(multiprocessing.forkserver._forkserver._forkserver_pid, signal.SIGINT)
+        print(pool.submit(os.getpid).result() > 0)
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="there no process is forked")
+def test_ctrl_c_during_the_imports_of_a_worker_is_left_to_the_command() -> None:
+    answer = subprocess.run(
+        [sys.executable, "-c", STRUCK_WHILE_IMPORTING],
+        capture_output=True,
+        text=True,
+        timeout=300,
+        check=False,
+    )
+    assert (answer.stdout, answer.stderr) == ("True\n", "")
