@@ -56,6 +56,30 @@ describe("a stream with a slow first connection", () => {
   });
 });
 
+describe("a stream that stalls", () => {
+  it("is slow after 2 s and lost after 5 s, and goes on with the same connection", async () => {
+    vi.useFakeTimers();
+    const sockets = stubSockets();
+    const phases: string[] = [];
+    const connection = new StreamConnection(
+      () => new URL("ws://lab/stream"),
+      () => new Promise(() => {}),
+      { onPhase: (phase) => void phases.push(phase), onText: () => {}, onBinary: () => {} },
+    );
+    connection.open();
+    sockets[0]?.onmessage?.({ data: "{}" });
+    await vi.advanceTimersByTimeAsync(4500);
+    expect(phases).toEqual(["live", "slow"]);
+    sockets[0]?.onmessage?.({ data: "{}" });
+    await vi.advanceTimersByTimeAsync(5500);
+    sockets[0]?.onmessage?.({ data: "{}" });
+    expect(phases.slice(2)).toEqual(["live", "slow", "lost", "live"]);
+    expect(sockets).toHaveLength(1);
+    vi.useRealTimers();
+    vi.unstubAllGlobals();
+  });
+});
+
 describe("a stream whose session has ended", () => {
   it("reports it and does not reconnect automatically, unlike a broken one", async () => {
     vi.useFakeTimers();

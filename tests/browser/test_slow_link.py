@@ -1,0 +1,64 @@
+"""A first visit over a slow link, in a browser: samples first, and words for a slow connection."""
+
+import pytest
+from playwright.sync_api import Page, WebSocket, expect
+
+from tests.lab import Lab
+from tests.slow_link import open_slow_link
+from tests.waiting import wait_until
+
+pytestmark = [pytest.mark.browser, pytest.mark.wall_clock]
+
+RATE_BPS, ROUND_TRIP_S, LONGEST_S = 50_000, 0.4, 15.0
+ROUND_TRIPS = 8
+"""Start page, files and stream, each with a new connection, and two for TCP's slow start."""
+
+
+def count_samples(page: Page) -> int:
+    return page.evaluate("svsa.series('position_rad').time.length")
+
+
+def test_first_visit_has_its_samples_within_the_bytes_of_15_s(page: Page, lab: Lab) -> None:
+    lab.load_figure()
+    lab.client.put(lab.session + "/lanes", json={"comparisons": [{"law": "fl"}]})
+    lab.jump(21)
+    lab.client.post(lab.session + "/start").raise_for_status()
+    with open_slow_link(lab.url, RATE_BPS, ROUND_TRIP_S) as link:
+        seen: list[str] = []
+        delivered: list[int] = []
+        sockets: list[WebSocket] = []
+
+        def note_message(message: str | bytes) -> None:
+            if isinstance(message, bytes) and not delivered:
+                delivered.append(link.delivered)
+                seen.append("samples")
+
+        def watch(socket: WebSocket) -> None:
+            if "/stream?" in socket.url:
+                sockets.append(socket)
+                socket.on("framereceived", note_message)
+
+        page.on("request", lambda request: seen.append(request.url))
+        page.on("websocket", watch)
+        page.goto(link.url, wait_until="commit")
+        status = page.locator(".statusbar").get_by_role("status").first
+        expect(status).to_contain_text("Live")
+        assert delivered[0] < RATE_BPS * (LONGEST_S - ROUND_TRIPS * ROUND_TRIP_S)
+        later = seen[seen.index("samples") :]
+        wait_until(lambda: count_samples(page) > 3900)
+        for path in ("/api/v1/laws", "/api/v1/kinds", "/api/v1/actuators", "/viser/lab/"):
+            assert [url for url in seen if path in url] == [url for url in later if path in url]
+        assert sum("/api/v1/kinds" in url for url in seen) == 1
+        assert len(sockets) == 1, "the history needs no second connection"
+
+        loop = page.locator(".status-cell.is-loop")
+        link.is_open.clear()
+        expect(status).to_contain_text("Slow connection: receiving …")
+        expect(loop).not_to_contain_text("real time")
+        link.is_open.set()
+        expect(status).to_contain_text("Live")
+        expect(loop).to_contain_text("real time")
+
+        link.cut()
+        expect(status).to_contain_text("Live")
+        wait_until(lambda: count_samples(page) > 1000)
