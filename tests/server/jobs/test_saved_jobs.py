@@ -124,20 +124,21 @@ def test_old_jobs_are_removed_and_a_second_server_leaves_the_folder(tmp_path: Pa
     assert JobFolders(tmp_path / "unusable").saved == []
 
 
+@pytest.mark.exhaustive
 @pytest.mark.long
 def test_jobs_are_listed_and_continued_after_the_server_was_killed() -> None:
     with run_lab() as lab:
         assert lab.process is not None
-        asked = [
+        long_study = {"source": "load", "runs": 20_000}
+        lab.client.post("/api/v1/studies", json=long_study).raise_for_status()
+        follow(lab.client, "/api/v1/studies/load", lambda study: study["done"] >= 256)
+        for path, body in (
             ("jobs", {"kind": "tuning", "law": "pd", "budget": 500}),
             ("jobs", {"kind": "falsification", "adversary": "impulse"}),
-            ("studies", {"source": "load", "runs": 20_000}),
             ("leaderboard/laws", None),
-        ]
-        for path, body in asked:
+        ):
             lab.client.post(f"/api/v1/{path}", json=body).raise_for_status()
         before = lab.client.get("/api/v1/jobs").json()["jobs"]
-        follow(lab.client, "/api/v1/studies/load", lambda study: study["done"] >= 256)
         os.kill(lab.process.pid, signal.SIGKILL)
         lab.process.wait()
         with run_lab(data=str(lab.data)) as again:
@@ -148,7 +149,7 @@ def test_jobs_are_listed_and_continued_after_the_server_was_killed() -> None:
             assert {job["status"] for job in after} == {"interrupted"}
             study = again.client.get("/api/v1/studies/load").raise_for_status().json()
             assert (study["done"] >= 256, study["job"]["status"]) == (True, "interrupted")
-            body = {"source": "load", "runs": 20_000}
-            again.client.post("/api/v1/studies", json=body).raise_for_status()
+            again.client.post("/api/v1/studies", json=long_study).raise_for_status()
+            follow(again.client, "/api/v1/studies/load", lambda now: now["done"] > study["done"])
             for job in again.client.get("/api/v1/jobs").json()["jobs"]:
                 again.client.delete(f"/api/v1/jobs/{job['id']}").raise_for_status()
