@@ -35,6 +35,18 @@ PREFERENCES: Mapping[str, object] = {
     "webgl.force-enabled": True,
 }
 
+# Code points of WebDriver.
+KEYS: Mapping[str, str] = {
+    "Enter": "\ue007",
+    "Shift": "\ue008",
+    "Escape": "\ue00c",
+    "PageUp": "\ue00e",
+    "PageDown": "\ue00f",
+    "ArrowUp": "\ue013",
+    "ArrowDown": "\ue015",
+    "Delete": "\ue017",
+}
+
 
 def find_firefox() -> str:
     """Return the path of a Firefox on this machine; skips if there is none.
@@ -103,6 +115,22 @@ class Firefox:
             if time.monotonic() > end:
                 raise AssertionError(f"not true within {LONG_S:g} s: {expression}")
             time.sleep(BETWEEN_LOOKS_S)
+
+    def press(self, key: str) -> None:
+        """Press a key such as `Shift+ArrowUp`, or type a character."""
+        parts = key.split("+") if len(key) > 1 else [key]
+        values = [KEYS.get(part, part) for part in parts]
+        downs = [{"type": "keyDown", "value": value} for value in values]
+        ups = [{"type": "keyUp", "value": value} for value in reversed(values)]
+        self._act({"type": "key", "id": "keyboard", "actions": downs + ups})
+
+    def turn_wheel(self, x: int, y: int) -> None:
+        """Turn the wheel of a mouse at this place of the page by one notch, up."""
+        scroll = {"type": "scroll", "x": x, "y": y, "deltaX": 0, "deltaY": -100}
+        self._act({"type": "wheel", "id": "wheel", "actions": [scroll]})
+
+    def _act(self, source: dict[str, Any]) -> None:
+        self._send("input.performActions", context=self._window, actions=[source])
 
     def take_screenshot(self) -> bytes:
         """Return the page as PNG."""

@@ -18,7 +18,7 @@ def search(page: Page, lab: Lab) -> Locator:
     go_to_page(page, "Falsifier")
     page.get_by_label("Failure criterion").select_option(label="peak error")
     page.get_by_label("Effects").select_option(label="none")
-    page.get_by_label("Length of a run, s").fill("8")
+    page.get_by_label("Length of a run").fill("8")
     page.get_by_label("Maximum runs").fill("64")
     page.get_by_role("button", name="Search").press("Enter")
     reported = page.get_by_role("region", name=re.compile("^NDOBC: "))
@@ -63,7 +63,7 @@ def test_invalid_bound_is_reported_by_name_and_nothing_is_started(
 ) -> None:
     page.goto(still_lab.url + "/?falsifier=all")
     before = still_lab.client.get("/api/v1/jobs").json()["total"]
-    page.get_by_label("Onset from, s").fill("7.5")
+    page.get_by_label("Onset from").fill("7.5")
     page.get_by_role("button", name="Search").press("Enter")
     alert = page.get_by_role("alert").first
     expect(alert).to_contain_text("terms[0]")

@@ -121,7 +121,7 @@ def test_rejection_at_the_edge_of_the_panel_is_scrolled_into_view(
     # No click: once the end of the panel is in view no group is named below it, and all moves.
     visited.get_by_role("spinbutton", name="Bandwidth β").fill("-1")
     visited.get_by_role("spinbutton", name="Bandwidth β").press("Enter")
-    refused = visited.get_by_text("Bandwidth β, Link: −1 rad/s is out of range")
+    refused = visited.get_by_text("Bandwidth β: −1 rad/s is out of range")
     expect(refused).to_be_in_viewport(ratio=1)
     groups = visited.get_by_role("region", name="Controls", exact=True).locator(".groups")
 

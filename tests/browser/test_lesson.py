@@ -48,7 +48,8 @@ class KeyboardStudent:
         number = f"{answer:.4g}"
         self.page.keyboard.press("Tab")
         self.page.keyboard.type("x")
-        expect(self.page.get_by_text('"x" is not a number')).to_be_visible()
+        self.page.keyboard.press("Enter")
+        expect(self.page.get_by_text("“x” is not a number")).to_be_visible()
         self.page.keyboard.press("Backspace")
         self.page.keyboard.type(number)
         self.page.keyboard.press("Enter")

@@ -154,14 +154,18 @@ def test_load_button_plots_and_view_are_visible_together_and_the_controller_is_s
 
 @pytest.mark.smoke
 @pytest.mark.usefixtures("without_3d", "still")
-def test_rejected_value_is_explained_at_its_field_and_reset(page: Page, lab: Lab) -> None:
+def test_rejected_value_is_explained_at_its_field_until_escape(page: Page, lab: Lab) -> None:
     open_page(page, lab)
     before = lab.read()["configuration"]["position"]
     field = page.get_by_role("spinbutton", name=re.compile("Frequency")).first
     field.fill("99")
     field.press("Enter")
-    expect(page.get_by_text(re.compile("at most 5 Hz"))).to_be_visible()
+    expect(page.get_by_text("Frequency: 99 Hz is out of range (from 0 to 5 Hz)")).to_be_visible()
+    expect(field).to_have_value("99")
+    expect(field).to_have_attribute("aria-invalid", "true")
+    field.press("Escape")
     expect(field).to_have_value("0.2")
+    expect(field).to_have_attribute("aria-invalid", "false")
     assert lab.read()["configuration"]["position"] == before
 
 

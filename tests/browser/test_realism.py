@@ -54,8 +54,9 @@ def test_single_effect_and_model_error_are_switched(page: Page, lab: Lab, realis
     deviation.fill("500")
     deviation.press("Enter")
     expect(realism.get_by_role("alert").filter(has_text="Deflection, std. dev.")).to_contain_text(
-        "at most 100 mrad"
+        "from 0 to 100 mrad"
     )
+    deviation.press("Escape")
     expect(deviation).to_have_value("0.5")
     with page.expect_response("**/effects"):
         noise.press("Space")

@@ -63,8 +63,9 @@ def test_every_action_shows_its_call_in_python_and_curl(page: Page, lab: Lab) ->
 
     choose(drawer.get_by_role("radio", name="curl"))
     expect(calls.first).to_contain_text(f"curl -X POST '{address}' -H 'Content-Type:")
-    field = page.get_by_role("spinbutton", name=re.compile("Frequency")).first
-    field.fill("99")
+    page.get_by_text("Gains, coefficient by coefficient").click()
+    field = page.get_by_role("spinbutton", name=re.compile("c₀ of q"))
+    field.fill("-1")
     field.press("Enter")
     expect(calls.last).to_contain_text("rejected, 422")
     page.get_by_role("button", name="Copy all").click()

@@ -14,6 +14,7 @@ import "./lab/panels/realism.css";
 import "./lab/panels/load.css";
 import "./lab/panels/shaped.css";
 import "./core/widgets/page.css";
+import "./core/widgets/numberinput.css";
 import "./core/widgets/panel.css";
 import "./core/widgets/tables.css";
 import "./lab/actuators/actuators.css";

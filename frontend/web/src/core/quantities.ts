@@ -7,28 +7,41 @@ export interface Quantity {
   unit: string;
   /** Factor from the API's SI unit to the unit on screen. */
   factor?: number;
+  /** Bounds of the API, in the unit on screen. */
+  min?: number;
+  max?: number;
 }
 
 const STIFFNESS = "N·m/rad";
 const { motion, stiffness, observer, load, realism, design, transport } = text;
-const degrees = (label: string): Quantity => ({ label, unit: "deg", factor: DEGREES_PER_RADIAN });
-const plain = (label: string, unit = ""): Quantity => ({ label, unit });
+const degrees = (label: string, min: number): Quantity => ({
+  label,
+  unit: "deg",
+  factor: DEGREES_PER_RADIAN,
+  min,
+  max: 360,
+});
+const plain = (label: string, unit = "", bounds: Pick<Quantity, "min" | "max"> = {}): Quantity => ({
+  label,
+  unit,
+  ...bounds,
+});
 
 export const QUANTITIES = {
-  amplitude_rad: degrees(motion.amplitude),
-  offset_rad: degrees(motion.offset),
-  position_rad: degrees(motion.position),
-  frequency_hz: plain(motion.frequency, "Hz"),
+  amplitude_rad: degrees(motion.amplitude, 0),
+  offset_rad: degrees(motion.offset, -360),
+  position_rad: degrees(motion.position, -360),
+  frequency_hz: plain(motion.frequency, "Hz", { min: 0, max: 5 }),
   stiffness_nm_per_rad: plain(stiffness.level, STIFFNESS),
   offset_nm_per_rad: plain(stiffness.mean, STIFFNESS),
-  amplitude_nm_per_rad: plain(stiffness.amplitude, STIFFNESS),
+  amplitude_nm_per_rad: plain(stiffness.amplitude, STIFFNESS, { min: 0, max: 10_000 }),
   stiffness: plain(stiffness.throughout, STIFFNESS),
   position_poles_rad_per_s: plain(design.summary(design.position), design.unit),
   stiffness_poles_rad_per_s: plain(design.summary(design.stiffness), design.unit),
   position_coefficients: plain(design.summary(design.position)),
   stiffness_coefficients: plain(design.summary(design.stiffness)),
-  bandwidth_rad_per_s: plain(observer.all, design.unit),
-  torque_nm: plain(load.torque, "N·m"),
+  bandwidth_rad_per_s: plain(observer.all, design.unit, { min: 0.1, max: 1000 }),
+  torque_nm: plain(load.torque, "N·m", { min: -50, max: 50 }),
   duration_s: plain(load.duration, "s"),
   factor: plain(transport.speed),
   by: plain(text.control.name),

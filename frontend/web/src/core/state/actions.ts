@@ -22,6 +22,8 @@ const MAX_TRIES = 5;
 interface Rejection {
   control: string;
   message: string;
+  /** The server has rejected the value. */
+  isRefused?: boolean;
   /** Send it again although another user's change caused the rejection. */
   retry?: () => Promise<boolean>;
 }
@@ -93,7 +95,7 @@ export async function perform(
             message: describeChange(error.path, base, session.peek()),
             retry: () => perform(control, request),
           }
-        : { control, message: explain(error) };
+        : { control, message: explain(error), isRefused: error instanceof RefusedError };
     return false;
   }
 }

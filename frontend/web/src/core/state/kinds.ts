@@ -10,7 +10,7 @@ import type {
   SessionState,
 } from "../api/types";
 import type { Quantity } from "../quantities";
-import { DEGREES_PER_RADIAN, formatInput } from "../units";
+import { DEGREES_PER_RADIAN } from "../units";
 
 const RETRY_MS = 2000;
 const MILLI_LIMIT = 0.1;
@@ -36,8 +36,19 @@ export async function choosePreset(name: Preset): Promise<SessionState> {
   return putEffects(preset?.effects ?? {});
 }
 
-/** Label, unit and factor on screen: angles in degrees, small numbers in thousandths. */
-export function quantityOfParameter({ symbol, meaning, unit, high }: ParameterRow): Quantity {
+/** Label, unit, bounds and factor on screen: angles in degrees, small numbers in thousandths. */
+export function quantityOfParameter(parameter: ParameterRow): Quantity {
+  const { low, high } = parameter;
+  const quantity = nameQuantity(parameter);
+  const { factor = 1 } = quantity;
+  return {
+    ...quantity,
+    ...(low !== null && { min: low * factor }),
+    ...(high !== null && { max: high * factor }),
+  };
+}
+
+function nameQuantity({ symbol, meaning, unit, high }: ParameterRow): Quantity {
   const label = symbol || meaning;
   if (unit === "1" || unit === "") return { label, unit: "" };
   const isSmall = (unit === "s" || unit === "rad") && high !== null && high <= MILLI_LIMIT;
@@ -61,24 +72,23 @@ export function effectQuantityOf(path: string): Quantity | null {
   return found === undefined ? null : quantityOfParameter(found);
 }
 
-/** Initial values of the fields of a form, by name. */
-export const initialValues = (form: readonly FormField[]): Record<string, string> =>
+/** Initial values of the fields of a form, by name, in the units on screen. */
+export const initialValues = (form: readonly FormField[]): Record<string, number> =>
   Object.fromEntries(
     form.map(({ parameter, first }) => {
       const { factor = 1 } = quantityOfParameter(parameter);
-      return [parameter.name, formatInput(first * factor)];
+      return [parameter.name, first * factor];
     }),
   );
 
-/** Values of a form in SI; null while a number is missing or invalid. */
-export function parseForm(
+/** Values of a form in SI. */
+export const readForm = (
   form: readonly FormField[],
-  typed: Readonly<Record<string, string>>,
-): Record<string, number> | null {
-  const entries = form.map(({ parameter }) => {
-    const written = typed[parameter.name]?.trim() ?? "";
-    const { factor = 1 } = quantityOfParameter(parameter);
-    return [parameter.name, written === "" ? Number.NaN : Number(written) / factor] as const;
-  });
-  return entries.every(([, value]) => Number.isFinite(value)) ? Object.fromEntries(entries) : null;
-}
+  values: Readonly<Record<string, number>>,
+): Record<string, number> =>
+  Object.fromEntries(
+    form.map(({ parameter: { name }, parameter }) => [
+      name,
+      (values[name] as number) / (quantityOfParameter(parameter).factor ?? 1),
+    ]),
+  );

@@ -11,7 +11,6 @@ export const controlsText = {
     missing: (name: string) => `${name} is missing.`,
     finding: (name: string, finding: string) => `${name}: ${finding}.`,
     wrong: (name: string, bound: string) => `${name} must be ${bound}.`,
-    noNumber: "Not a number. The value is unchanged.",
     between: (least: string, most: string) => `from ${least} to ${most}`,
     atLeast: (bound: string) => `at least ${bound}`,
     moreThan: (bound: string) => `more than ${bound}`,
@@ -65,10 +64,10 @@ export const controlsText = {
     levelsHint: (unit: string, most: number) =>
       `One line per step: time in s, level in ${unit}. At most ${most}; ${most / 2} while a bench moves.`,
     noLevel: (line: number, written: string) =>
-      `Line ${line} is “${written}”; expected a time and a level.`,
+      `Line ${line} is “${written}”; expected a time and a level, separated by a space.`,
     levelCount: (count: number, most: number) =>
       `The list has ${count} lines; expected 1 to ${most}.`,
-    example: (column: string, low: string, high: string) =>
+    example: (column: string, low: number, high: number) =>
       `time_s,${column}\n0,${low}\n1,${high}\n3,${low}\n`,
     isOther: {
       position: "This CSV holds positions: open it under Motion.",

@@ -11,6 +11,7 @@ import { jobsText, tuningText } from "./jobs";
 import { keysText, sceneText, scriptText } from "./lab";
 import { leaderboardText } from "./leaderboard";
 import { learningText } from "./learning";
+import { numbersText } from "./numbers";
 import { pageText } from "./page";
 import { plotsText } from "./plots";
 import { rankingText } from "./ranking";
@@ -21,6 +22,7 @@ import { studiesText } from "./studies";
 
 export const text = {
   ...pageText,
+  ...numbersText,
   ...actuatorsText,
   ...armText,
   ...plotsText,

@@ -39,7 +39,6 @@ export const learningText = {
     keep: "Save prediction",
     change: "Change prediction",
     kept: (answer: string, unit: string) => `You predicted ${answer}${unit && ` ${unit}`}.`,
-    notANumber: (typed: string) => `"${typed}" is not a number. Enter digits, such as 0.25.`,
     keptHint: "You can change it until the run is set up.",
     isKept: "The run is set up: the prediction is final.",
     choose: "Choose",

@@ -48,32 +48,6 @@ export function Choice<T extends string>(props: ChoiceProps<T>) {
   );
 }
 
-interface NumberBoxProps {
-  label: string;
-  unit: string;
-  value: string;
-  onInput: (value: string) => void;
-}
-
-/** A number of a form, as text. */
-export function NumberBox({ label, unit, value, onInput }: NumberBoxProps) {
-  const id = useId();
-  return (
-    <div class="field is-plain">
-      <label for={id}>{label}</label>
-      <input
-        id={id}
-        type="number"
-        step="any"
-        required
-        value={value}
-        onInput={(event) => onInput(event.currentTarget.value)}
-      />
-      <span class="unit">{unit}</span>
-    </div>
-  );
-}
-
 /** Reason why the server rejected a control's request; scrolled into view in its panel. */
 export function Problem({ control, id }: { control: string; id?: string }) {
   const line = useRef<HTMLParagraphElement>(null);
@@ -134,32 +108,6 @@ export function SelectField<T extends string>(props: SelectFieldProps<T>) {
           </option>
         ))}
       </select>
-    </label>
-  );
-}
-
-interface NumberFieldProps {
-  label: string;
-  value: number;
-  min: number;
-  max?: number;
-  title?: string;
-  onChange: (value: number) => void;
-}
-
-/** A required number, below its label. */
-export function NumberField({ label, value, title, onChange, ...ends }: NumberFieldProps) {
-  return (
-    <label title={title}>
-      <span>{label}</span>
-      <input
-        type="number"
-        step="any"
-        required
-        {...ends}
-        value={value}
-        onInput={(event) => onChange(event.currentTarget.valueAsNumber)}
-      />
     </label>
   );
 }

@@ -2,7 +2,8 @@ import { useState } from "preact/hooks";
 import type { Adversary } from "../../core/api/falsifications";
 import { titleOf, usableLaws } from "../../core/state/laws";
 import { text } from "../../core/text/en";
-import { NumberField, SelectField } from "../../core/widgets/form";
+import { SelectField } from "../../core/widgets/form";
+import { NumberField } from "../../core/widgets/numberinput";
 import {
   type AdversaryForm,
   describeTerms,
@@ -141,18 +142,20 @@ export function Start() {
           <div class="pair">
             <NumberField
               label={words.off}
+              unit="%"
               title={words.offHint}
               min={0}
               max={90}
               value={form.offPercent}
-              onChange={(offPercent) => change({ offPercent })}
+              onInput={(offPercent) => change({ offPercent })}
             />
             <NumberField
               label={words.duration}
+              unit="s"
               min={0.1}
               max={60}
               value={form.durationS}
-              onChange={(durationS) => change({ durationS })}
+              onInput={(durationS) => change({ durationS })}
             />
           </div>
         </>
@@ -170,13 +173,14 @@ export function Start() {
       <div class="pair">
         <NumberField
           label={words.runs}
+          isInteger
           title={words.runsHint}
           min={1}
           max={100_000}
           value={runs}
-          onChange={setRuns}
+          onInput={setRuns}
         />
-        <NumberField label={words.seed} min={0} value={seed} onChange={setSeed} />
+        <NumberField label={words.seed} isInteger min={0} value={seed} onInput={setSeed} />
       </div>
       <div class="row">
         <button type="submit" class="button is-primary" disabled={isBusy.value !== ""}>

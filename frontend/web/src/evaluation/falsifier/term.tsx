@@ -1,29 +1,33 @@
 import { text } from "../../core/text/en";
-import { NumberField, SelectField } from "../../core/widgets/form";
+import { SelectField } from "../../core/widgets/form";
+import { NumberField } from "../../core/widgets/numberinput";
 import { BODIES, changeKind, KINDS, type TermForm } from "./definition";
 
 const words = text.falsifier;
 
 interface RangeProps {
   label: string;
+  unit: string;
   ends: readonly [number, number];
   onChange: (ends: readonly [number, number]) => void;
 }
 
-function Range({ label, ends, onChange }: RangeProps) {
+function Range({ label, unit, ends, onChange }: RangeProps) {
   return (
     <div class="pair">
       <NumberField
         label={label}
+        unit={unit}
         min={0}
         value={ends[0]}
-        onChange={(from) => onChange([from, ends[1]])}
+        onInput={(from) => onChange([from, ends[1]])}
       />
       <NumberField
         label={words.to}
+        unit={unit}
         min={0}
         value={ends[1]}
-        onChange={(to) => onChange([ends[0], to])}
+        onInput={(to) => onChange([ends[0], to])}
       />
     </div>
   );
@@ -52,10 +56,11 @@ export function TermFields({ number, term, canBeRemoved, onChange, onRemove }: T
         />
         <NumberField
           label={words.torque}
+          unit="N·m"
           min={0}
           max={50}
           value={term.torqueNm}
-          onChange={(torqueNm) => onChange({ ...term, torqueNm })}
+          onInput={(torqueNm) => onChange({ ...term, torqueNm })}
         />
       </div>
       <p class="row">
@@ -78,12 +83,14 @@ export function TermFields({ number, term, canBeRemoved, onChange, onRemove }: T
       </p>
       <Range
         label={words.onsetFrom}
+        unit="s"
         ends={term.startS}
         onChange={(startS) => onChange({ ...term, startS })}
       />
       {term.kind !== "step" && (
         <Range
           label={words.ownFrom[term.kind]}
+          unit={term.kind === "sine" ? "Hz" : "s"}
           ends={term.own}
           onChange={(own) => onChange({ ...term, own })}
         />

@@ -4,6 +4,7 @@ import type uPlot from "uplot";
 import { palette } from "../../core/plots/linestyles";
 import { useStaticChart } from "../../core/plots/staticchart";
 import { text } from "../../core/text/en";
+import { NumberField } from "../../core/widgets/numberinput";
 import { paintDots } from "./dots";
 import {
   brushedCount,
@@ -73,28 +74,26 @@ export function ColumnChoice({
 function Ends({ plane }: { plane: Plane }) {
   const held = brush.value?.plane === plane ? brush.value : null;
   const { across, up } = planes[plane].value;
-  const set = (way: "x" | "y", end: 0 | 1, typed: string) => {
-    const value = Number(typed);
-    if (typed.trim() === "" || !Number.isFinite(value)) return;
+  const set = async (way: "x" | "y", end: 0 | 1, value: number) => {
     const now = held ?? { plane, x: across.span, y: up.span };
     const span: [number, number] = [...now[way]];
     span[end] = value;
     setBrush({ ...now, plane, [way]: span });
+    return true;
   };
   return (
     <div class="form studies-ends">
       {(["x", "y"] as const).map((way) => {
         const axis = way === "x" ? words.x : words.y;
         return ([0, 1] as const).map((end) => (
-          <label key={`${way}${end}`}>
-            <span>{end === 0 ? words.from(axis) : words.to(axis)}</span>
-            <input
-              type="number"
-              step="any"
-              value={held === null ? "" : Number(held[way][end].toPrecision(4))}
-              onChange={(event) => set(way, end, event.currentTarget.value)}
-            />
-          </label>
+          <NumberField
+            key={`${way}${end}`}
+            label={end === 0 ? words.from(axis) : words.to(axis)}
+            value={held === null ? null : held[way][end]}
+            digits={4}
+            onCommit={(value) => set(way, end, value)}
+            onEmpty={() => undefined}
+          />
         ));
       })}
     </div>

@@ -4,6 +4,7 @@ import { describeError } from "../../core/state/actions";
 import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { SelectField } from "../../core/widgets/form";
+import { NumberField } from "../../core/widgets/numberinput";
 import { Boxes, LawBoxes } from "../../core/widgets/pagelayout";
 import { isBusy, list, problem, startNewStudy } from "./studies";
 import { factorOf, nameColumn } from "./studyview";
@@ -11,17 +12,18 @@ import { factorOf, nameColumn } from "./studyview";
 const words = text.studies;
 const OWN = "";
 const FIRST = "load";
+const MAX_RUNS = 1_000_000_000;
 
 /** Select, change, check and start a study; an error is shown with line, name and bound. */
 export function Start() {
   const [source, setSource] = useState(FIRST);
   const [own, setOwn] = useState("");
   const [name, setName] = useState("");
-  const [runs, setRuns] = useState("");
+  const [runs, setRuns] = useState<number | null>(null);
   const [laws, setLaws] = useState<readonly string[]>([]);
   const [chosenMetrics, setChosenMetrics] = useState<readonly string[]>([]);
   const [metric, setMetric] = useState("");
-  const [bound, setBound] = useState("");
+  const [bound, setBound] = useState<number | null>(null);
   const [plan, setPlan] = useState<StudyPlan | null>(null);
   const builtIn = list.value?.built_in ?? [];
   const metrics = list.value?.metrics ?? [];
@@ -30,11 +32,11 @@ export function Start() {
   const build = (): StudyChanges => ({
     ...(source === OWN ? { text: own } : { source }),
     ...(name !== "" && { name }),
-    ...(runs !== "" && { runs: Number(runs) }),
+    ...(runs !== null && { runs }),
     ...(laws.length > 0 && { laws }),
     ...(chosenMetrics.length > 0 && { metrics: chosenMetrics }),
     ...(successMetric && {
-      success: { [successMetric.name]: Number(bound) / factorOf(successMetric.unit) },
+      success: { [successMetric.name]: (bound ?? 0) / factorOf(successMetric.unit) },
     }),
   });
   const check = async () => {
@@ -82,16 +84,17 @@ export function Start() {
           />
         </label>
       )}
-      <label title={words.runsHint}>
-        <span>{words.runs}</span>
-        <input
-          type="number"
-          min={1}
-          placeholder={words.asInStudy}
-          value={runs}
-          onInput={(event) => change(() => setRuns(event.currentTarget.value))}
-        />
-      </label>
+      <NumberField
+        label={words.runs}
+        title={words.runsHint}
+        isInteger
+        min={1}
+        max={MAX_RUNS}
+        placeholder={words.asInStudy}
+        value={runs}
+        onInput={(value) => change(() => setRuns(value))}
+        onEmpty={() => change(() => setRuns(null))}
+      />
       <label title={words.nameHint}>
         <span>{words.name}</span>
         <input
@@ -128,19 +131,21 @@ export function Start() {
         name={(one) => offered.find(({ name }) => name === one)?.title ?? words.asInStudy}
         onChoose={(chosen) => change(() => setMetric(chosen))}
       />
-      <label>
-        <span>{words.most}</span>
-        <input
-          type="number"
-          step="any"
-          required={metric !== ""}
-          disabled={metric === ""}
-          value={bound}
-          onInput={(event) => change(() => setBound(event.currentTarget.value))}
-        />
-      </label>
+      <NumberField
+        label={words.most}
+        unit={successMetric?.unit ?? ""}
+        disabled={metric === ""}
+        value={bound}
+        onInput={(value) => change(() => setBound(value))}
+      />
       <div class="row">
-        <button type="button" class="button" onClick={() => void check()}>
+        <button
+          type="button"
+          class="button"
+          onClick={(event) => {
+            if (event.currentTarget.form?.reportValidity()) void check();
+          }}
+        >
           {words.check}
         </button>
         <button type="submit" class="button is-primary" disabled={isBusy.value !== ""}>

@@ -1,17 +1,14 @@
-import { useId, useState } from "preact/hooks";
+import { useId } from "preact/hooks";
 import { text } from "../../core/text/en";
 import { formatInput } from "../../core/units";
+import { NumberInput } from "../../core/widgets/numberinput";
 import { positionOf, type SliderRange, STEPS, valueAt } from "../../core/widgets/scale";
 import { draft, type Group, setDraftObserver, setDraftPoles } from "./draft";
-import { allAt, areTogether, bandwidthOf } from "./poles";
+import { allAt, areTogether, BANDWIDTH_BOUNDS, bandwidthOf } from "./poles";
 
 const words = text.design;
 const POLES: SliderRange = { min: 5, max: 200, logarithmic: true };
 const OBSERVER: SliderRange = { min: 2, max: 300, logarithmic: true };
-
-const MIN = 0.1;
-const MAX = 1000;
-const BOUNDS = text.refusal.between(String(MIN), `${MAX} ${words.unit}`);
 
 interface RowProps {
   look: string;
@@ -26,14 +23,6 @@ interface RowProps {
 /** One bandwidth for all poles of a group; predicted at once, applied later. */
 function Row({ look, label, name, note, value, range, onTry }: RowProps) {
   const id = useId();
-  const [typed, setTyped] = useState<string | null>(null);
-  const isTaken = (written: string) =>
-    written.trim() !== "" && Number(written) >= MIN && Number(written) <= MAX;
-  const take = (written: string) => {
-    setTyped(written);
-    if (isTaken(written)) onTry(Number(written));
-  };
-  const isRefused = typed !== null && !isTaken(typed);
   return (
     <div class={`bandwidth is-${look}`}>
       <label for={id}>
@@ -51,28 +40,19 @@ function Row({ look, label, name, note, value, range, onTry }: RowProps) {
           onTry(Number(formatInput(valueAt(event.currentTarget.valueAsNumber, range), 3)))
         }
       />
-      <input
+      <NumberInput
         id={id}
-        type="number"
-        step="any"
-        min={MIN}
-        max={MAX}
-        aria-invalid={isRefused}
-        value={typed ?? formatInput(value, 4)}
-        aria-describedby={`${id}-note`}
-        onInput={(event) => take(event.currentTarget.value)}
-        onBlur={() => setTyped(null)}
+        label={name}
+        value={value}
+        digits={4}
+        unit={words.unit}
+        {...BANDWIDTH_BOUNDS}
+        describedBy={`${id}-note`}
+        onInput={onTry}
       />
       <span class="unit clip" id={`${id}-note`}>
         {note}
       </span>
-      {isRefused && (
-        <p class="problem wide" role="alert">
-          {typed.trim() === ""
-            ? text.refusal.noNumber
-            : text.refusal.outOfRange(name, `${typed} ${words.unit}`, BOUNDS)}
-        </p>
-      )}
     </div>
   );
 }

@@ -13,6 +13,8 @@ const SNAP = 4;
 export const MAX_RE = 40;
 export const MIN_RE = -300;
 export const MAX_IM = 120;
+/** Of a bandwidth that is typed, rad/s. */
+export const BANDWIDTH_BOUNDS = { min: 0.1, max: 1000 } as const;
 
 const clamp = (value: number, least: number, most: number) =>
   Math.min(most, Math.max(least, value));

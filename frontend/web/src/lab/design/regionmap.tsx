@@ -6,6 +6,7 @@ import { findStiffness } from "../../core/state/stiffness";
 import { text } from "../../core/text/en";
 import { formatInput, formatNumber } from "../../core/units";
 import { ErrorLine, SelectField } from "../../core/widgets/form";
+import { NumberField } from "../../core/widgets/numberinput";
 import {
   computeRegion,
   isComputing,
@@ -106,17 +107,11 @@ export function RegionMap() {
   const own = configuration?.law ?? "ndobc";
   const [law, setLaw] = useState<string | null>(null);
   const [chosen, setChosen] = useState<Slice>("rigid");
-  const [typed, setTyped] = useState<string | null>(null);
+  const [typed, setTyped] = useState<number | null>(null);
   const present =
     draftResponse.value?.stiffness_nm_per_rad ?? (configuration && findStiffness(configuration));
-  const sigma = typed ?? formatInput(present ?? 0, 3);
+  const sigma = typed ?? Number(formatInput(present ?? 0, 3));
   const limits = configuration?.limits;
-  const value = Number(sigma);
-  const isTaken =
-    sigma.trim() !== "" &&
-    limits !== undefined &&
-    value >= limits.stiffness_min_nm_per_rad &&
-    value <= limits.stiffness_max_nm_per_rad;
   const part = restShare.value;
   const found = shownRegion.value;
   return (
@@ -127,7 +122,13 @@ export function RegionMap() {
       <h3 id={`${id}-title`} title={words.regionHint}>
         {words.region}
       </h3>
-      <div class="row small region-choice">
+      <form
+        class="row small region-choice"
+        onSubmit={(event) => {
+          event.preventDefault();
+          void computeRegion(law ?? own, chosen, sigma);
+        }}
+      >
         <SelectField
           label={words.law}
           value={law ?? own}
@@ -144,45 +145,26 @@ export function RegionMap() {
           disabled={isComputing.value}
           onChoose={setChosen}
         />
-        <label>
-          <span>σ</span>
-          <input
-            type="number"
-            step="any"
-            value={sigma}
-            aria-label={words.regionStiffness}
-            aria-invalid={!isTaken}
-            disabled={isComputing.value}
-            onInput={(event) => setTyped(event.currentTarget.value)}
-          />
-        </label>
+        <NumberField
+          label="σ"
+          labelRest={words.regionStiffness}
+          unit="N·m/rad"
+          min={limits?.stiffness_min_nm_per_rad}
+          max={limits?.stiffness_max_nm_per_rad}
+          value={sigma}
+          disabled={isComputing.value}
+          onInput={setTyped}
+        />
         {isComputing.value ? (
           <button type="button" class="button end" onClick={stopComputing}>
             {words.stop}
           </button>
         ) : (
-          <button
-            type="button"
-            class="button end"
-            disabled={!isTaken}
-            onClick={() => void computeRegion(law ?? own, chosen, value)}
-          >
+          <button type="submit" class="button end">
             {words.fill}
           </button>
         )}
-      </div>
-      {!isTaken && limits && (
-        <p class="problem" role="alert">
-          {text.refusal.outOfRange(
-            "σ",
-            sigma,
-            text.refusal.between(
-              formatInput(limits.stiffness_min_nm_per_rad),
-              `${formatInput(limits.stiffness_max_nm_per_rad)} N·m/rad`,
-            ),
-          )}
-        </p>
-      )}
+      </form>
       <ErrorLine>{problem.value === null ? "" : explain(problem.value)}</ErrorLine>
       <Picture />
       <p class="row small region-legend">

@@ -166,6 +166,8 @@ export function ArmGroup({ state, isBasic }: { state: SessionState; isBasic: boo
         name="arm.mass"
         label={words.mass}
         unit="kg"
+        min={0.001}
+        max={20}
         value={tipMassKg.value}
         range={{ min: 0.05, max: 2, logarithmic: true }}
         send={async (mass) => {

@@ -4,9 +4,10 @@ import type { Load } from "../../core/api/types";
 import { quantityProps } from "../../core/quantities";
 import { perform } from "../../core/state/actions";
 import { isArm, settingsJoint } from "../../core/state/arm";
-import { initialValues, kinds, parseForm, quantityOfParameter } from "../../core/state/kinds";
+import { initialValues, kinds, quantityOfParameter, readForm } from "../../core/state/kinds";
 import { text } from "../../core/text/en";
-import { Choice, NumberBox, Problem } from "../../core/widgets/form";
+import { Choice, Problem } from "../../core/widgets/form";
+import { NumberField } from "../../core/widgets/numberinput";
 import { EnduranceNote } from "../../hardware/endurance";
 
 type Channel = "0" | "1" | "2";
@@ -20,16 +21,15 @@ const CHANNELS = (["0", "1", "2"] as const).map((value) => ({
 export function CustomLoad({ isShown }: { isShown: boolean }) {
   const [kind, setKind] = useState("constant");
   const [channel, setChannel] = useState<Channel>("0");
-  const [torque, setTorque] = useState("1");
-  const [typed, setTyped] = useState<Record<string, string>>({});
+  const [torque, setTorque] = useState(1);
+  const [typed, setTyped] = useState<Record<string, number>>({});
 
   const offered = kinds.value?.loads.filter(({ form }) => form !== null) ?? [];
   const form = offered.find((one) => one.kind === kind)?.form ?? [];
   const values = { ...initialValues(form), ...typed };
-  const details = parseForm(form, values);
-  const torque_nm = CHANNELS.map(({ value }) => (value === channel ? Number(torque) : 0));
+  const details = readForm(form, values);
+  const torque_nm = CHANNELS.map(({ value }) => (value === channel ? torque : 0));
   const draft = { kind, torque_nm, ...details } as Load;
-  const isNumber = torque !== "" && Number.isFinite(Number(torque)) && details !== null;
 
   const submit = (event: Event) => {
     event.preventDefault();
@@ -50,17 +50,17 @@ export function CustomLoad({ isShown }: { isShown: boolean }) {
         value={channel}
         onChoose={setChannel}
       />
-      <NumberBox {...quantityProps("torque_nm")} value={torque} onInput={setTorque} />
+      <NumberField {...quantityProps("torque_nm")} value={torque} onInput={setTorque} />
       {form.map(({ parameter }) => (
-        <NumberBox
+        <NumberField
           key={`${kind}.${parameter.name}`}
           {...quantityOfParameter(parameter)}
-          value={values[parameter.name] ?? ""}
+          value={values[parameter.name] as number}
           onInput={(value) => setTyped({ ...typed, [parameter.name]: value })}
         />
       ))}
       {isArm.value && <p class="hint">{text.arm.torqueOn(settingsJoint.value)}</p>}
-      <EnduranceNote load={isShown && isNumber ? draft : null} />
+      <EnduranceNote load={isShown ? draft : null} />
       <button type="submit" class="button">
         {text.load.apply}
       </button>

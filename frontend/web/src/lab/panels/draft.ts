@@ -1,10 +1,8 @@
-/** Typed values before the server has accepted them. */
+/** Numbers of the server while the user changes them. */
 import { useRef, useState } from "preact/hooks";
 import type { SessionState } from "../../core/api/types";
 import { perform, problem } from "../../core/state/actions";
 import { session } from "../../core/state/session";
-import { text } from "../../core/text/en";
-import { formatInput } from "../../core/units";
 
 export interface ServerNumber {
   /** Name of the control, unique on the page. */
@@ -15,37 +13,48 @@ export interface ServerNumber {
 }
 
 /**
- * A number of the server. Typing makes a draft; leaving the field discards it, Enter sends it; then
- * the server's value is shown again.
+ * A number of the server: commits are sent one after the other, of several that wait only the last.
+ * `edits` goes on an element around the controls.
  */
-export function useDraft({ name, value, send }: ServerNumber) {
-  const [draft, storeDraft] = useState<string | null>(null);
+export function useServerNumber({ name, value, send }: ServerNumber) {
+  /** Position of a slider that is moved. */
+  const [dragged, setDragged] = useState<number | null>(null);
   const stateAtStart = useRef<SessionState | null>(null);
-  const setDraft = (next: string | null) => {
-    if (draft === null) stateAtStart.current = session.peek();
-    storeDraft(next);
-  };
-  const commit = async (next: string) => {
-    const number = Number(next);
-    if (next.trim() === "" || !Number.isFinite(number)) {
-      problem.value = { control: name, message: text.refusal.noNumber };
-    } else if (next !== formatInput(value)) {
-      setDraft(next);
-      await perform(name, () => send(number), stateAtStart.current);
+  const waiting = useRef<number | null>(null);
+  const sending = useRef<Promise<boolean> | null>(null);
+
+  const sendAll = async () => {
+    let isTaken = true;
+    while (waiting.current !== null) {
+      const next = waiting.current;
+      waiting.current = null;
+      isTaken = await perform(name, () => send(next), stateAtStart.current ?? session.peek());
+      stateAtStart.current = null;
     }
-    storeDraft((current) => (current === null || current === next ? null : current));
+    sending.current = null;
+    return isTaken || problem.peek()?.isRefused !== true;
   };
-  const shown = draft ?? formatInput(value);
-  const inputProps = {
-    type: "number" as const,
-    step: "any",
-    value: shown,
-    onInput: (event: Event) => setDraft((event.currentTarget as HTMLInputElement).value),
-    onChange: (event: Event) => void commit((event.currentTarget as HTMLInputElement).value),
-    onBlur: () => setDraft(null),
+  const commit = (next: number): Promise<boolean> => {
+    waiting.current = next;
+    sending.current ??= sendAll();
+    return sending.current;
+  };
+  const edits = {
+    onInput: () => {
+      stateAtStart.current ??= session.peek();
+    },
+    onFocusOut: () => {
+      if (sending.current === null) stateAtStart.current = null;
+    },
     onKeyDown: (event: KeyboardEvent) => {
-      if (event.key === "Escape") setDraft(null);
+      if (event.key === "Escape" && problem.peek()?.control === name) problem.value = null;
     },
   };
-  return { shown, setDraft, commit, inputProps };
+  return {
+    shown: dragged ?? value,
+    drag: setDragged,
+    commit,
+    release: (next: number) => commit(next).then(() => setDragged(null)),
+    edits,
+  };
 }

@@ -2,59 +2,58 @@ import { useId } from "preact/hooks";
 import { text } from "../../core/text/en";
 import { formatInput } from "../../core/units";
 import { Problem } from "../../core/widgets/form";
+import { NumberField } from "../../core/widgets/numberinput";
 import { positionOf, type SliderRange, STEPS, valueAt } from "../../core/widgets/scale";
-import { MathSymbol } from "../../core/widgets/symbol";
-import { type ServerNumber, useDraft } from "./draft";
+import { type ServerNumber, useServerNumber } from "./draft";
 
 interface FieldProps extends ServerNumber {
   label: string;
-  /** Extends the label for screen readers if the label is clear only within its group. */
   labelRest?: string;
   unit: string;
   /** Factor from the server's value to the value on screen. */
   factor?: number;
-  /** In the unit on screen. */
+  /** Bounds in the unit on screen. */
+  min?: number | undefined;
+  max?: number | undefined;
+  /** Of the slider, in the unit on screen. */
   range?: SliderRange;
 }
 
-/**
- * A number with its label and unit. Moving the slider makes a draft, releasing it sends it; a
- * rejection is shown below.
- */
-export function Field({ label, labelRest, unit, factor = 1, range, ...serverNumber }: FieldProps) {
+/** A number of the server. Moving the slider shows the value, releasing it sends it. */
+export function Field({ name, value, send, factor = 1, range, ...field }: FieldProps) {
   const id = useId();
-  const { shown, setDraft, commit, inputProps } = useDraft({
-    name: serverNumber.name,
-    value: serverNumber.value * factor,
-    send: (value) => serverNumber.send(value / factor),
+  const { shown, drag, commit, release, edits } = useServerNumber({
+    name,
+    value: value * factor,
+    send: (next) => send(next / factor),
   });
-  const fromSlider = (event: Event) =>
-    formatInput(valueAt((event.target as HTMLInputElement).valueAsNumber, range as SliderRange), 3);
-
+  const { label, labelRest, unit } = field;
+  const fromSlider = ({ currentTarget }: { currentTarget: HTMLInputElement }) =>
+    Number(formatInput(valueAt(currentTarget.valueAsNumber, range as SliderRange), 3));
   return (
-    <div class={`field ${range ? "" : "is-plain"}`}>
-      <label for={id}>
-        <MathSymbol text={label} />
-        {labelRest && <span class="visually-hidden"> {labelRest}</span>}
-      </label>
-      {range && (
-        <input
-          type="range"
-          min={0}
-          max={STEPS}
-          value={positionOf(Number(shown), range)}
-          aria-label={text.controls.slider(labelRest ? `${label} ${labelRest}` : label)}
-          aria-valuetext={`${shown} ${unit}`}
-          aria-describedby={`${id}-problem`}
-          onInput={(event) => setDraft(fromSlider(event))}
-          onChange={(event) => void commit(fromSlider(event))}
-        />
-      )}
-      <input id={id} aria-describedby={`${id}-unit ${id}-problem`} {...inputProps} />
-      <span class="unit" id={`${id}-unit`}>
-        {unit}
-      </span>
-      <Problem id={`${id}-problem`} control={serverNumber.name} />
-    </div>
+    <NumberField
+      {...field}
+      value={shown}
+      step={range?.step}
+      describedBy={id}
+      onCommit={commit}
+      slider={
+        range && (
+          <input
+            type="range"
+            min={0}
+            max={STEPS}
+            value={positionOf(shown, range)}
+            aria-label={text.controls.slider(labelRest ? `${label} ${labelRest}` : label)}
+            aria-valuetext={`${formatInput(shown)} ${unit}`}
+            aria-describedby={id}
+            onInput={(event) => drag(fromSlider(event))}
+            onChange={(event) => void release(fromSlider(event))}
+          />
+        )
+      }
+      below={<Problem id={id} control={name} />}
+      container={edits}
+    />
   );
 }

@@ -6,7 +6,7 @@ import { type ComparisonLane, gainsOf, hasOwnSettings } from "../../core/state/l
 import { text } from "../../core/text/en";
 import { Problem } from "../../core/widgets/form";
 import type { SliderRange } from "../../core/widgets/scale";
-import { coefficientsOf } from "../design/poles";
+import { BANDWIDTH_BOUNDS, coefficientsOf } from "../design/poles";
 import { Field } from "./field";
 import { ParameterFields } from "./law";
 
@@ -38,6 +38,7 @@ function Bandwidths({ state, comparison }: Omit<LaneFormProps, "law">) {
           label={symbol}
           labelRest={words.poles(text.design[group])}
           unit={text.design.unit}
+          {...BANDWIDTH_BOUNDS}
           value={bandwidth}
           range={POLES}
           send={(value) => put({ [`${group}_coefficients`]: coefficientsOf(held.length, value) })}

@@ -41,6 +41,8 @@ function Parameter({ name, row, held, send }: ParameterProps) {
           {...(hasLongMeaning(row) ? { labelRest: row.meaning } : {})}
           unit={unit}
           value={index === null ? (held as number) : ((held as number[])[index] as number)}
+          min={row.low ?? undefined}
+          max={row.high ?? undefined}
           {...rangeOf(row)}
           send={(value) => send(changedAt(held, index, value))}
         />

@@ -1,12 +1,14 @@
 import { useId } from "preact/hooks";
 import { patchActuator, patchNominal } from "../../core/api/client";
 import type { ActuatorParameters, Configuration } from "../../core/api/types";
+import type { Demand } from "../../core/readnumber";
 import { perform } from "../../core/state/actions";
 import { describeActuator, nameOfActuator, patchOf, SVSA } from "../../core/state/actuators";
 import { text } from "../../core/text/en";
 import { formatNumber } from "../../core/units";
 import { Problem } from "../../core/widgets/form";
-import { type ServerNumber, useDraft } from "./draft";
+import { NumberInput } from "../../core/widgets/numberinput";
+import { type ServerNumber, useServerNumber } from "./draft";
 
 const words = text.realism;
 /** Format of a parameter in the table. */
@@ -14,21 +16,30 @@ interface Row {
   key: string;
   symbol: string;
   meaning: string;
+  bounds: Demand;
 }
 const COLUMNS = [
   { column: "actuator", patch: patchActuator },
   { column: "nominal", patch: patchNominal },
 ] as const;
 
-function Cell({
-  label,
-  describedBy,
-  ...held
-}: ServerNumber & { label: string; describedBy: string }) {
-  const { inputProps } = useDraft(held);
+interface CellProps extends ServerNumber {
+  label: string;
+  describedBy: string;
+  bounds: Demand;
+}
+
+function Cell({ label, describedBy, bounds, ...held }: CellProps) {
+  const { shown, commit, edits } = useServerNumber(held);
   return (
-    <td>
-      <input aria-label={label} aria-describedby={describedBy} {...inputProps} />
+    <td {...edits}>
+      <NumberInput
+        aria-label={label}
+        describedBy={describedBy}
+        {...bounds}
+        value={shown}
+        onCommit={commit}
+      />
     </td>
   );
 }
@@ -47,6 +58,10 @@ const numberOf = (values: ActuatorParameters, key: string): number => Number(val
 function listRows({ actuator }: Models): Row[] {
   const name = nameOfActuator(actuator);
   const described = describeActuator(name)?.parameters ?? [];
+  const boundsOf = (key: string, unit: string): Demand => {
+    const row = described.find((parameter) => parameter.name === key);
+    return { unit, min: row?.low ?? undefined, max: row?.high ?? undefined };
+  };
   const common = Object.entries(words.names).filter(([key]) => typeof actuator[key] === "number");
   const own = described.filter(
     ({ name: key, kind }) => name !== SVSA && kind === "number" && !(key in words.names),
@@ -56,11 +71,13 @@ function listRows({ actuator }: Models): Row[] {
       key,
       symbol,
       meaning: `${meaning}, ${unit}`,
+      bounds: boundsOf(key, unit),
     })),
     ...own.map(({ name: key, meaning, unit }) => ({
       key,
       symbol: "",
       meaning: unit === "1" ? meaning : `${meaning}, ${unit}`,
+      bounds: boundsOf(key, unit === "1" ? "" : unit),
     })),
   ];
 }
@@ -89,7 +106,7 @@ export function ParameterTable({ actuator, nominal }: Models) {
           </tr>
         </thead>
         <tbody>
-          {rows.map(({ key, symbol, meaning }) => (
+          {rows.map(({ key, symbol, meaning, bounds }) => (
             <tr key={key}>
               <th scope="row">
                 <i>{symbol}</i> <small>{meaning}</small>
@@ -100,6 +117,7 @@ export function ParameterTable({ actuator, nominal }: Models) {
                   name={nameOf(key, column)}
                   label={words.cell(`${symbol} ${meaning}`.trim(), words[column])}
                   describedBy={id}
+                  bounds={bounds}
                   value={numberOf(held[column], key)}
                   send={(value) => patch({ [key]: value })}
                 />

@@ -14,15 +14,17 @@ import type {
   StiffnessReference,
 } from "../../core/api/types";
 import { explain, perform } from "../../core/state/actions";
-import { initialValues, kinds, parseForm, quantityOfParameter } from "../../core/state/kinds";
+import { initialValues, kinds, quantityOfParameter, readForm } from "../../core/state/kinds";
 import { session } from "../../core/state/session";
 import { text } from "../../core/text/en";
 import { DEGREES_PER_RADIAN, formatNumber } from "../../core/units";
-import { Choice, ErrorLine, NumberBox, Problem } from "../../core/widgets/form";
+import { Choice, ErrorLine, Problem } from "../../core/widgets/form";
+import { NumberField } from "../../core/widgets/numberinput";
 import { Levels, Series } from "./referencelist";
 import {
   coursePath,
   firstSteps,
+  INPUT_BOUNDS,
   INPUTS,
   type Input,
   type Listed,
@@ -70,13 +72,6 @@ async function follow(follows: Follows, reference: Reference) {
   return state.revision === before ? repeat(follows) : state;
 }
 
-/** The list that the fields of steps generate; null while one is missing. */
-function listLevels({ low, high, hold, count }: Record<Input, string>): string | null {
-  const numbers = [low, high, hold, count].map((typed) => (typed.trim() ? Number(typed) : NaN));
-  const [from, to, everyS, steps] = numbers as [number, number, number, number];
-  return numbers.every(Number.isFinite) ? writeLevels(from, to, everyS, steps) : null;
-}
-
 interface ShapedProps {
   follows: Follows;
   held: string;
@@ -94,9 +89,9 @@ export function Shaped({ follows, held, configuration }: ShapedProps) {
   const isKnown = shapes.some(({ value }) => value === held);
   const [shape, setShape] = useState(isKnown ? held : "steps");
   const [steps, setSteps] = useState(first);
-  const [typed, setTyped] = useState<Record<string, string>>({});
+  const [typed, setTyped] = useState<Record<string, number>>({});
   const [csv, setCsv] = useState(words.example(COLUMNS[follows], first.low, first.high));
-  const [levels, setLevels] = useState(listLevels(first) ?? "");
+  const [levels, setLevels] = useState(writeLevels(first));
   const [previewed, setPreviewed] = useState<PreviewedReference | null>(null);
   const [refusal, setRefusal] = useState("");
   const unit = follows === "position" ? "deg" : "N·m/rad";
@@ -111,13 +106,11 @@ export function Shaped({ follows, held, configuration }: ShapedProps) {
     const read = () => {
       if (shape === "series") return readCsv(follows, csv);
       if (shape === "steps") return readLevels(follows, levels);
-      const numbers = parseForm(form, values);
-      return numbers && ({ kind: shape, ...numbers } as Reference);
+      return { kind: shape, ...readForm(form, values) } as Reference;
     };
     const look = async () => {
       try {
         const reference = await read();
-        if (reference === null) throw new RangeError(text.refusal.noNumber);
         const preview = await previewReference(follows, reference);
         if (isLatest) setPreviewed({ reference, preview });
         if (isLatest) setRefusal("");
@@ -132,10 +125,10 @@ export function Shaped({ follows, held, configuration }: ShapedProps) {
     };
   }, [follows, shape, typed, csv, levels, kind]);
 
-  const type = (name: Input, value: string) => {
+  const type = (name: Input, value: number) => {
     const next = { ...steps, [name]: value };
     setSteps(next);
-    setLevels(listLevels(next) ?? levels);
+    setLevels(writeLevels(next));
   };
 
   const submit = (event: Event) => {
@@ -149,20 +142,21 @@ export function Shaped({ follows, held, configuration }: ShapedProps) {
       {shape === "series" && <Series list={csv} onList={setCsv} />}
       {shape === "steps" &&
         INPUTS.map((name) => (
-          <NumberBox
+          <NumberField
             key={name}
             label={words.inputs[name]}
             unit={units[name] ?? unit}
+            {...INPUT_BOUNDS[name]}
             value={steps[name]}
             onInput={(value) => type(name, value)}
           />
         ))}
       {shape === "steps" && <Levels unit={unit} list={levels} onList={setLevels} />}
       {form.map(({ parameter }) => (
-        <NumberBox
+        <NumberField
           key={`${shape}.${parameter.name}`}
           {...quantityOfParameter(parameter)}
-          value={values[parameter.name] ?? ""}
+          value={values[parameter.name] as number}
           onInput={(value) => setTyped({ ...typed, [parameter.name]: value })}
         />
       ))}

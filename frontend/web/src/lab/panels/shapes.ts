@@ -1,6 +1,7 @@
 /** Steps and time series from typed text. */
 import type { Follows, Reference } from "../../core/api/design";
 import type { Configuration } from "../../core/api/types";
+import { type Demand, parseNumber } from "../../core/readnumber";
 import { findStiffness } from "../../core/state/stiffness";
 import { text } from "../../core/text/en";
 import { DEGREES_PER_RADIAN, formatInput } from "../../core/units";
@@ -10,14 +11,18 @@ export type Listed = "steps" | "series";
 export type Input = "low" | "high" | "hold" | "count";
 
 export const INPUTS: readonly Input[] = ["low", "high", "hold", "count"];
+export const INPUT_BOUNDS: Partial<Record<Input, Demand>> = {
+  hold: { min: 0 },
+  count: { min: 0, max: 199, isInteger: true },
+};
 
 /** First parameters of steps, in the units on screen: degrees or N·m/rad, s. */
-export function firstSteps(follows: Follows, configuration: Configuration): Record<Input, string> {
-  const timing = { hold: "2", count: "4" };
-  if (follows === "position") return { low: "-20", high: "20", ...timing };
+export function firstSteps(follows: Follows, configuration: Configuration): Record<Input, number> {
+  const timing = { hold: 2, count: 4 };
+  if (follows === "position") return { low: -20, high: 20, ...timing };
   const low = findStiffness(configuration);
   const high = Math.min(2 * low, configuration.limits.stiffness_max_nm_per_rad);
-  return { low: formatInput(low, 3), high: formatInput(high, 3), ...timing };
+  return { low: Number(formatInput(low, 3)), high: Number(formatInput(high, 3)), ...timing };
 }
 
 /** The points of a polyline in a box of this size, with the greatest value on top. */
@@ -43,12 +48,13 @@ export function coursePath(
 // Steps as a list: one per line, time in s and level in degrees or N·m/rad.
 
 export const MAX_LEVELS = 200;
-const GAP = /[\s,;]+/;
+/** A comma alone can be a decimal sign; before a space it separates. */
+const GAP = /\s*;\s*|\s*,\s+|\s+/;
 
 /** A list of equidistant steps between two levels. */
-export function writeLevels(low: number, high: number, everyS: number, count: number): string {
-  const numbers = Array.from({ length: Math.max(0, Math.round(count)) + 1 }, (_, number) => number);
-  const timeOf = (number: number) => Number((number * everyS).toPrecision(12));
+export function writeLevels({ low, high, hold, count }: Record<Input, number>): string {
+  const numbers = Array.from({ length: count + 1 }, (_, number) => number);
+  const timeOf = (number: number) => Number((number * hold).toPrecision(12));
   return numbers.map((one) => `${timeOf(one)}, ${one % 2 === 0 ? low : high}`).join("\n");
 }
 
@@ -56,11 +62,12 @@ export function writeLevels(low: number, high: number, everyS: number, count: nu
 export function readLevels(follows: Follows, list: string): Reference {
   const rows = list.split("\n").flatMap((line, index) => {
     if (line.trim() === "") return [];
-    const cells = line.trim().split(GAP).map(Number);
-    if (cells.length !== 2 || !cells.every(Number.isFinite)) {
+    const cells = line.trim().split(GAP).map(parseNumber);
+    const values = cells.flatMap((cell) => ("value" in cell ? cell.value : []));
+    if (cells.length !== 2 || values.length !== 2) {
       throw new RangeError(text.references.noLevel(index + 1, line.trim()));
     }
-    return [cells as [number, number]];
+    return [values as [number, number]];
   });
   if (rows.length === 0 || rows.length > MAX_LEVELS) {
     throw new RangeError(text.references.levelCount(rows.length, MAX_LEVELS));

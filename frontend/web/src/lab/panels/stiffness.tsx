@@ -41,6 +41,8 @@ function SineFields({ reference, reach }: { reference: Sine; reach: SliderRange 
       <Field
         name="stiffness.offset"
         {...quantityProps("offset_nm_per_rad")}
+        min={reach.min}
+        max={reach.max}
         value={reference.offset_nm_per_rad}
         range={reach}
         send={(value) => send({ offset_nm_per_rad: value })}
@@ -113,6 +115,8 @@ export function Stiffness({ state }: { state: SessionState }) {
         <Field
           name="stiffness.level"
           {...quantityProps("stiffness_nm_per_rad")}
+          min={reach.min}
+          max={reach.max}
           value={reference.stiffness_nm_per_rad}
           range={reach}
           send={(value) => putStiffness({ kind: "constant", stiffness_nm_per_rad: value })}

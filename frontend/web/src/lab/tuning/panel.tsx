@@ -5,6 +5,7 @@ import { titleOf, usableLaws } from "../../core/state/laws";
 import { isLive, session } from "../../core/state/session";
 import { text } from "../../core/text/en";
 import { ErrorLine, Problem, SelectField } from "../../core/widgets/form";
+import { NumberField } from "../../core/widgets/numberinput";
 import { Panel } from "../../core/widgets/panel";
 import { CostCurve } from "./costcurve";
 import { ResultTable, ValueTable } from "./tables";
@@ -33,11 +34,15 @@ function close(): void {
 /** Law, duration, start and stop. */
 function Choice() {
   const [law, setLaw] = useState(session.value?.configuration.law ?? "");
-  const [typed, setTyped] = useState(String(BUDGET));
-  const budget = Number(typed);
-  const isTaken = Number.isInteger(budget) && budget >= 1 && budget <= MAX_BUDGET;
+  const [budget, setBudget] = useState(BUDGET);
   return (
-    <div class="row small tuning-choice">
+    <form
+      class="row small tuning-choice"
+      onSubmit={(event) => {
+        event.preventDefault();
+        void start(law, budget);
+      }}
+    >
       <SelectField
         label={words.law}
         value={law}
@@ -46,34 +51,26 @@ function Choice() {
         disabled={isTuning.value}
         onChoose={setLaw}
       />
-      <label title={words.budgetHint}>
-        <span>{words.budget}</span>
-        <input
-          type="number"
-          min={1}
-          max={MAX_BUDGET}
-          value={typed}
-          aria-invalid={!isTaken}
-          disabled={isTuning.value}
-          onInput={(event) => setTyped(event.currentTarget.value)}
-        />
-      </label>
+      <NumberField
+        label={words.budget}
+        title={words.budgetHint}
+        isInteger
+        min={1}
+        max={MAX_BUDGET}
+        value={budget}
+        disabled={isTuning.value}
+        onInput={setBudget}
+      />
       {isTuning.value ? (
         <button type="button" class="button" title={words.stopHint} onClick={() => void stop()}>
           {words.stop}
         </button>
       ) : (
-        <button
-          type="button"
-          class="button is-primary"
-          disabled={!isTaken || law === "" || isStarting.value}
-          onClick={() => void start(law, budget)}
-        >
+        <button type="submit" class="button is-primary" disabled={law === "" || isStarting.value}>
           {words.start}
         </button>
       )}
-      <ErrorLine>{isTaken ? "" : words.budgetHint}</ErrorLine>
-    </div>
+    </form>
   );
 }
 

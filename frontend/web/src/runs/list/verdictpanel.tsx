@@ -1,28 +1,23 @@
 import { useState } from "preact/hooks";
 import { text } from "../../core/text/en";
-import { NumberBox, SelectField } from "../../core/widgets/form";
+import { SelectField } from "../../core/widgets/form";
+import { NumberField } from "../../core/widgets/numberinput";
 import { CHANNELS, type OverlayChannel, type OverlayCurve, TITLES } from "./overlaycurves";
 import { attempt } from "./problem";
-import { assessRuns, type Bounds, type RunAssessment, type Tolerances } from "./verdict";
+import { assessRuns, type Bounds, type RunAssessment } from "./verdict";
 import { VerdictTable } from "./verdicttable";
 
 const words = text.verdict;
-type Typed = Record<OverlayChannel, Record<keyof Bounds, string>>;
+type Typed = Record<OverlayChannel, Bounds>;
 const AT_FIRST: Typed = {
-  position_error_rad: { absolute: "0.5", relativePercent: "0", timeS: "0.01" },
-  stiffness_error_nm_per_rad: { absolute: "0.5", relativePercent: "0", timeS: "0.01" },
+  position_error_rad: { absolute: 0.5, relativePercent: 0, timeS: 0.01 },
+  stiffness_error_nm_per_rad: { absolute: 0.5, relativePercent: 0, timeS: 0.01 },
 };
-
-const readBounds = (typed: Typed[OverlayChannel]): Bounds => ({
-  absolute: Number(typed.absolute),
-  relativePercent: Number(typed.relativePercent),
-  timeS: Number(typed.timeS),
-});
 
 interface FieldsProps {
   channel: OverlayChannel;
   typed: Typed[OverlayChannel];
-  onType: (field: keyof Bounds, value: string) => void;
+  onType: (field: keyof Bounds, value: number) => void;
 }
 
 function Fields({ channel, typed, onType }: FieldsProps) {
@@ -36,10 +31,11 @@ function Fields({ channel, typed, onType }: FieldsProps) {
     <fieldset>
       <legend class="hint">{title}</legend>
       {units.map(([field, label, fieldUnit]) => (
-        <NumberBox
+        <NumberField
           key={field}
           label={label}
           unit={fieldUnit}
+          min={0}
           value={typed[field]}
           onInput={(value) => onType(field, value)}
         />
@@ -61,16 +57,13 @@ export function VerdictPanel({ curves, judged, onJudged }: VerdictPanelProps) {
   const [typed, setTyped] = useState(AT_FIRST);
   const [isJudging, setIsJudging] = useState(false);
   const judge = async () => {
-    const tolerances = Object.fromEntries(
-      CHANNELS.map((channel) => [channel, readBounds(typed[channel])]),
-    ) as Tolerances;
     setIsJudging(true);
     const ids = runs.map(([run]) => run);
     const align = curves[0]?.alignment ?? "window";
-    onJudged((await attempt(() => assessRuns(ids, reference, tolerances, align))) ?? []);
+    onJudged((await attempt(() => assessRuns(ids, reference, typed, align))) ?? []);
     setIsJudging(false);
   };
-  const type = (channel: OverlayChannel, field: keyof Bounds, value: string) => {
+  const type = (channel: OverlayChannel, field: keyof Bounds, value: number) => {
     onJudged([]);
     setTyped({ ...typed, [channel]: { ...typed[channel], [field]: value } });
   };

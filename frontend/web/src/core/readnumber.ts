@@ -1,0 +1,104 @@
+/**
+ * Numbers as users type them. The decimal sign is a point or a comma, whatever the language of the
+ * browser is. What could mean two numbers is rejected, never guessed.
+ */
+import { text } from "./text/en";
+import { formatInput } from "./units";
+
+const words = text.numbers;
+const MINUS = /^[\u2010-\u2013\u2212\ufe63\uff0d]/;
+/** Arabic-Indic, Persian and full-width digits: the last four bits are the value. */
+const OTHER_DIGITS = /[\u0660-\u0669\u06f0-\u06f9\uff10-\uff19]/g;
+const OTHER_SIGNS: Readonly<Record<string, string>> = {
+  "\u066b": ".",
+  "\uff0e": ".",
+  "\uff0c": ",",
+  "\uff0b": "+",
+};
+/** Spaces and invisible direction marks around a pasted number. */
+const AROUND = /^[\s\u200b-\u200f\u061c\u2066-\u2069]+|[\s\u200b-\u200f\u061c\u2066-\u2069]+$/g;
+const NUMBER = /^[+-]?(\d+[.,]?\d*|[.,]\d+)(e[+-]?\d{1,4})?$/i;
+const GROUPED = /^[+-]?\d[\d.,'’_\u066c\s]*$/;
+/** The page itself writes a point, so only a comma can be a thousands separator here. */
+const AMBIGUOUS = /^[+-]?[1-9]\d{0,2},\d{3}$/;
+
+/** What a field accepts, in the unit on screen. */
+export interface Demand {
+  /** Name of the field. */
+  label?: string;
+  unit?: string;
+  min?: number | undefined;
+  max?: number | undefined;
+  isInteger?: boolean;
+}
+
+export type Reading = { value: number } | { reason: string };
+
+const write = (value: number): string => formatInput(value, 12).replace("-", "\u2212");
+
+const withUnit = (value: number, { unit = "" }: Demand): string =>
+  unit === "" ? write(value) : `${write(value)} ${unit}`;
+
+function describeBounds(demand: Demand): string {
+  const { unit = "", min, max } = demand;
+  const { refusal } = text;
+  if (min !== undefined && max !== undefined) {
+    return refusal.between(write(min), withUnit(max, demand));
+  }
+  if (min !== undefined) return refusal.atLeast(withUnit(min, demand));
+  if (max !== undefined) return refusal.atMost(withUnit(max, demand));
+  return unit && words.inUnit(unit);
+}
+
+/** A typed number without bounds, or the reason why it is none. */
+export function parseNumber(typed: string): Reading {
+  const trimmed = typed.replace(AROUND, "");
+  const plain = trimmed
+    .replace(MINUS, "-")
+    .replace(OTHER_DIGITS, (digit) => String(digit.charCodeAt(0) & 15))
+    .replace(/[\u066b\uff0e\uff0c\uff0b]/g, (sign) => OTHER_SIGNS[sign] as string);
+  if (plain === "") return { reason: words.missing };
+  if (AMBIGUOUS.test(plain)) {
+    return {
+      reason: words.ambiguous(trimmed, plain.replace(",", ""), plain.replace(",", ".")),
+    };
+  }
+  if (!NUMBER.test(plain)) {
+    return { reason: (GROUPED.test(plain) ? words.grouped : words.noNumber)(trimmed) };
+  }
+  const value = Number(plain.replace(",", "."));
+  if (!Number.isFinite(value)) return { reason: words.tooLarge(trimmed) };
+  if (value === 0 && /[1-9]/.test(plain.replace(/e.*/i, ""))) {
+    return { reason: words.tooSmall(trimmed) };
+  }
+  return { value };
+}
+
+/** A typed number that a field accepts, or the reason with unit and bounds. */
+export function readNumber(typed: string, demand: Demand): Reading {
+  const reading = parseNumber(typed);
+  const { label = words.number, min = -Infinity, max = Infinity, isInteger = false } = demand;
+  const bounds = describeBounds(demand);
+  if ("reason" in reading) {
+    return { reason: words.rejected(label, reading.reason, isInteger, bounds) };
+  }
+  const { value } = reading;
+  if (value < min || value > max) {
+    return { reason: text.refusal.outOfRange(label, withUnit(value, demand), bounds) };
+  }
+  if (!isInteger || Number.isSafeInteger(value)) return reading;
+  return { reason: words.rejected(label, words.noInteger(write(value)), isInteger, bounds) };
+}
+
+/**
+ * The next value of an arrow key: by `step`, or by one of the second digit of the value.
+ *
+ * count: number of steps, negative for less.
+ */
+export function stepNumber(value: number, count: number, demand: Demand, step?: number): number {
+  const { min = -Infinity, max = Infinity, isInteger = false } = demand;
+  const size = Math.abs(value) || (Number.isFinite(max) ? max / 10 : 10);
+  const own = 10 ** (Math.floor(Math.log10(size)) - 1);
+  const next = value + count * (step ?? (isInteger ? 1 : own));
+  return Math.min(max, Math.max(min, Number(next.toPrecision(12))));
+}

@@ -1,0 +1,240 @@
+/** The number field of the page: the same for every locale, browser and way of typing. */
+import type { ComponentChildren, HTMLAttributes } from "preact";
+import { useEffect, useId, useLayoutEffect, useRef, useState } from "preact/hooks";
+import { type Demand, readNumber, stepNumber } from "../readnumber";
+import { text } from "../text/en";
+import { formatInput } from "../units";
+import { MathSymbol } from "./symbol";
+
+const WHEEL_STEP_PX = 50;
+const LINE_PX = 33;
+const COUNTS: Readonly<Record<string, number>> = {
+  ArrowUp: 1,
+  ArrowDown: -1,
+  PageUp: 10,
+  PageDown: -10,
+};
+
+export interface NumberInputProps extends Demand {
+  id?: string;
+  /** The value in force, in the unit on screen; null: none yet. */
+  value: number | null;
+  /** Significant digits shown. */
+  digits?: number;
+  /** Of an arrow key. */
+  step?: number | undefined;
+  /** Without a `label` element. */
+  "aria-label"?: string;
+  /** Ids of elements that describe the field, besides the reason of a rejection. */
+  describedBy?: string;
+  placeholder?: string;
+  disabled?: boolean;
+  /** Every valid number while it is typed. */
+  onInput?: (value: number) => void;
+  /**
+   * The number after Enter, leaving the field, an arrow or page key, or the wheel. Resolves to
+   * false if it was rejected; the text then stays.
+   */
+  onCommit?: (value: number) => Promise<boolean>;
+  /** The field is empty; without it, a number is required. */
+  onEmpty?: () => void;
+}
+
+/**
+ * While the text is invalid, the reason is below it, its form cannot be submitted, and the value in
+ * force remains; Escape restores it.
+ */
+export function NumberInput(props: NumberInputProps) {
+  const { value, digits = 12, step, describedBy, placeholder, disabled } = props;
+  const { unit, min, max, isInteger, onInput, onCommit, onEmpty } = props;
+  const ownId = useId();
+  const input = useRef<HTMLInputElement>(null);
+  /** What the user has typed; null: the field shows the value in force. */
+  const [typed, setTyped] = useState<string | null>(null);
+  const [reason, setReason] = useState("");
+  const [isRefused, setRefused] = useState(false);
+  /** Text of the last commit, so that leaving the field after Enter is not another. */
+  const committed = useRef<string | null>(null);
+  const line = useRef<HTMLParagraphElement>(null);
+  const turned = useRef(0);
+  const pending = useRef(0);
+  const held = value === null ? "" : formatInput(value, digits);
+  const shown = typed ?? held;
+  const label = props.label ?? props["aria-label"] ?? text.numbers.number;
+  const demand: Demand = { label, unit: unit ?? "", min, max, isInteger: isInteger ?? false };
+
+  const restore = () => {
+    committed.current = null;
+    setTyped(null);
+    setReason("");
+    setRefused(false);
+  };
+  /** Null if the text is no valid number; an optional field may be empty. */
+  const readTyped = (next: string) => {
+    if (onEmpty && next.trim() === "") return { value: null };
+    return readNumber(next, demand);
+  };
+  const type = (next: string) => {
+    committed.current = null;
+    setTyped(next);
+    setRefused(false);
+    const reading = readTyped(next);
+    if ("reason" in reading) return;
+    setReason("");
+    if (reading.value === null) onEmpty?.();
+    else onInput?.(reading.value);
+  };
+  const commit = async (next: string) => {
+    const reading = readTyped(next);
+    committed.current = next;
+    setTyped(next);
+    if ("reason" in reading) {
+      setReason(reading.reason);
+      return;
+    }
+    setReason("");
+    const isSame = pending.current === 0 && reading.value === Number(held);
+    if (reading.value === null || isSame) return restore();
+    pending.current += 1;
+    const isTaken = (await onCommit?.(reading.value)) !== false;
+    pending.current -= 1;
+    if (committed.current !== next) return;
+    if (isTaken) restore();
+    else setRefused(true);
+  };
+  const move = (count: number) => {
+    const reading = readNumber(shown, demand);
+    const next = stepNumber("value" in reading ? reading.value : (value ?? 0), count, demand, step);
+    type(formatInput(next, 12));
+    void commit(formatInput(next, 12));
+  };
+  const onKeyDown = (event: KeyboardEvent) => {
+    if (event.isComposing || event.ctrlKey || event.altKey || event.metaKey) return;
+    const count = COUNTS[event.key];
+    if (count !== undefined) {
+      event.preventDefault();
+      move(count * (event.shiftKey && Math.abs(count) === 1 ? 10 : 1));
+    } else if (event.key === "Enter" && typed !== null) void commit(shown);
+    else if (event.key === "Escape" && !event.shiftKey && typed !== null) {
+      event.preventDefault();
+      restore();
+      if (value === null) onEmpty?.();
+    }
+  };
+  const onWheel = (event: WheelEvent) => {
+    if (document.activeElement !== input.current) return;
+    event.preventDefault();
+    turned.current -= event.deltaY * (event.deltaMode === WheelEvent.DOM_DELTA_LINE ? LINE_PX : 1);
+    if (Math.abs(turned.current) < WHEEL_STEP_PX) return;
+    move(Math.sign(turned.current));
+    turned.current = 0;
+  };
+  const onInvalid = (event: Event) => {
+    event.preventDefault();
+    void commit(shown);
+    if (input.current?.form?.querySelector(":invalid") === input.current) input.current?.focus();
+  };
+
+  // A newer value in force replaces a text that is no longer edited.
+  useEffect(() => {
+    if (document.activeElement !== input.current) restore();
+  }, [value]);
+  useEffect(() => {
+    if (reason !== "") line.current?.scrollIntoView({ block: "nearest" });
+  }, [reason]);
+  useLayoutEffect(() => {
+    const reading = typed === null && value !== null ? null : readTyped(shown);
+    input.current?.setCustomValidity(reading && "reason" in reading ? reading.reason : "");
+  });
+
+  return (
+    <>
+      <span class="number-input">
+        {(min === undefined || min < 0) && (
+          <button
+            type="button"
+            class="button sign"
+            tabIndex={-1}
+            aria-label={text.numbers.sign}
+            disabled={disabled}
+            onPointerDown={(event) => {
+              event.preventDefault();
+              input.current?.focus();
+              type(/^[-\u2212]/.test(shown) ? shown.slice(1) : `-${shown}`);
+            }}
+          >
+            ±
+          </button>
+        )}
+        <input
+          ref={input}
+          id={props.id ?? ownId}
+          type="text"
+          inputMode="decimal"
+          role="spinbutton"
+          autocomplete="off"
+          spellcheck={false}
+          placeholder={placeholder}
+          disabled={disabled}
+          required={!onEmpty}
+          value={shown}
+          aria-label={props["aria-label"]}
+          aria-valuenow={value ?? undefined}
+          aria-valuetext={`${shown} ${demand.unit}`.trim()}
+          aria-valuemin={min}
+          aria-valuemax={max}
+          aria-invalid={reason !== "" || isRefused}
+          aria-describedby={[describedBy, `${ownId}-reason`].filter(Boolean).join(" ")}
+          onInput={(event) => type(event.currentTarget.value)}
+          onBlur={() => {
+            if (typed !== null && typed !== committed.current) void commit(typed);
+          }}
+          onKeyDown={onKeyDown}
+          onWheel={onWheel}
+          onInvalid={onInvalid}
+        />
+      </span>
+      <p class="problem" id={`${ownId}-reason`} role="alert" hidden={reason === ""} ref={line}>
+        {reason}
+      </p>
+    </>
+  );
+}
+
+interface NumberFieldProps extends Omit<NumberInputProps, "id" | "aria-label"> {
+  label: string;
+  /** Extends the label for screen readers if the label is clear only within its group. */
+  labelRest?: string | undefined;
+  /** Explanation, shown when the pointer rests on the field. */
+  title?: string | undefined;
+  /** Between label and number, such as a slider; and below them. */
+  slider?: ComponentChildren;
+  below?: ComponentChildren;
+  /** Attributes of the element around label and number. */
+  container?: HTMLAttributes<HTMLDivElement>;
+}
+
+/** A number with its label and unit; in a `form` the label is above it. */
+export function NumberField(props: NumberFieldProps) {
+  const { label, labelRest, title, slider, below, container, describedBy, ...input } = props;
+  const id = useId();
+  return (
+    <div class={`field ${slider ? "" : "is-plain"}`} title={title} {...container}>
+      <label for={id}>
+        <MathSymbol text={label} />
+        {labelRest && <span class="visually-hidden"> {labelRest}</span>}
+      </label>
+      {slider}
+      <NumberInput
+        {...input}
+        label={label}
+        id={id}
+        describedBy={[`${id}-unit`, describedBy].filter(Boolean).join(" ")}
+      />
+      <span class="unit" id={`${id}-unit`}>
+        {input.unit}
+      </span>
+      {below}
+    </div>
+  );
+}
