@@ -45,6 +45,7 @@ import "./evaluation/studies/studies.css";
 import "./evaluation/falsifier/falsifier.css";
 import "./lab/script/script.css";
 import { render } from "preact";
+import "./core/translation";
 import { startFrames } from "./core/plots/frame";
 import { updateAccess } from "./core/state/control";
 import { openKinds } from "./core/state/kinds";

@@ -39,7 +39,7 @@ export function Login() {
       onCancel={(event) => event.preventDefault()}
     >
       <h2 id={`${id}-title`}>{isJoined ? text.classroom.title : text.login.title}</h2>
-      <p>{isJoined ? text.classroom.explanation : text.login.explanation}</p>
+      <p translate>{isJoined ? text.classroom.explanation : text.login.explanation}</p>
       {isJoined ? (
         <Join enter={(way) => void enter(way)} />
       ) : (

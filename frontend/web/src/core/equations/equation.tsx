@@ -32,10 +32,10 @@ function EquationRow({ equation }: { equation: Equation }) {
         <div class="note is-warn equation-printed">
           <span class="tag strong">{words.printed}</span>
           <Formula tex={printed} />
-          <p>{words.corrected}</p>
+          <p translate>{words.corrected}</p>
         </div>
       )}
-      {note && <p>{words.notes[note]}</p>}
+      {note && <p translate>{words.notes[note]}</p>}
     </div>
   );
 }

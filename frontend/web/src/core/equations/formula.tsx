@@ -38,7 +38,7 @@ export function Formula({ tex }: { tex: string }) {
       isWanted = false;
     };
   }, [tex]);
-  return <div class="formula" ref={host} />;
+  return <div class="formula" translate={false} ref={host} />;
 }
 
 /** Text from the server in which elements of class `math` contain TeX. */
@@ -49,7 +49,9 @@ export function Prose({ html }: { html: string }) {
     const box = host.current;
     if (box === null) return;
     box.innerHTML = html;
+    for (const code of box.querySelectorAll("code")) code.translate = false;
     for (const element of box.querySelectorAll<HTMLElement>(".math")) {
+      element.translate = false;
       const tex = (element.textContent ?? "").trim();
       void typeset(element, tex, element.classList.contains("block"), () => isWanted);
     }

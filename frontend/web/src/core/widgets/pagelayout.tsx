@@ -25,7 +25,9 @@ export function Page({ title, lead, problem, aside, children, class: look = "" }
       <div class="spread page-head">
         <div>
           <h2>{title}</h2>
-          <p class="muted">{lead}</p>
+          <p class="muted" translate>
+            {lead}
+          </p>
         </div>
         {aside}
       </div>

@@ -54,7 +54,7 @@ export function ArmCard({ onProblem }: ArmCardProps) {
           setChosen(null);
         }}
       />
-      <p>{arm.description}</p>
+      <p translate>{arm.description}</p>
       <div class="form halves">
         <SelectField
           label={words.actuatorOf(1)}

@@ -22,7 +22,7 @@ function Row({ press, children }: RowProps) {
           <kbd key={name}>{name}</kbd>
         ))}
       </dt>
-      <dd>{children}</dd>
+      <dd translate>{children}</dd>
     </div>
   );
 }

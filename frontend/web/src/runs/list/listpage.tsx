@@ -53,7 +53,7 @@ function Empty() {
   if (isFiltered.value) {
     return (
       <div class="empty">
-        <p>{words.nothing}</p>
+        <p translate>{words.nothing}</p>
         <button type="button" class="button" onClick={showAll}>
           {words.showAll}
         </button>
@@ -66,7 +66,7 @@ function Empty() {
         <path d="M0 30h70c6 0 6-26 12-26s5 30 12 30 5-6 12-4h94" />
       </svg>
       <h3>{words.emptyTitle}</h3>
-      <p>{words.emptyText}</p>
+      <p translate>{words.emptyText}</p>
       <PlaceLink to={{ kind: "lab" }} class="button is-primary">
         {words.openLab}
       </PlaceLink>

@@ -15,6 +15,7 @@ import "./numbers.css";
 import "./plots.css";
 import "./playback.css";
 import { render } from "preact";
+import "../../core/translation";
 import { useMemo } from "preact/hooks";
 import { type Theme, theme } from "../../core/state/preferences";
 import { text } from "../../core/text/replay";

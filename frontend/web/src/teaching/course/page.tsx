@@ -22,7 +22,7 @@ function ExerciseCard({ of }: { of: ExerciseSummary }) {
         {lesson.pointsAndLaw(of.max_points, of.law_points)}
       </p>
       <h4>{of.title}</h4>
-      <p>{of.goal}</p>
+      <p translate>{of.goal}</p>
       <progress
         value={of.done}
         max={of.steps}

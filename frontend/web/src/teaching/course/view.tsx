@@ -112,7 +112,7 @@ export function Lesson({ name }: { name: string }) {
           <Steps found={found} at={at} />
           {at === found.parts[0] && (
             <div class="stack">
-              <p>
+              <p translate>
                 <strong>{words.goal}:</strong> {found.goal}
               </p>
               <Prose html={found.html} />

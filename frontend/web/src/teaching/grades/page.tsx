@@ -198,7 +198,7 @@ export function GradesPage() {
       ) : found.students.length === 0 ? (
         <section class="surface card">
           <h3>{words.empty}</h3>
-          <p>{words.emptyHint}</p>
+          <p translate>{words.emptyHint}</p>
         </section>
       ) : (
         <>

@@ -41,7 +41,7 @@ function Published() {
 const Empty = () => (
   <section class="surface card" aria-labelledby="board-empty">
     <h3 id="board-empty">{words.empty}</h3>
-    <p>{words.emptyHint}</p>
+    <p translate>{words.emptyHint}</p>
   </section>
 );
 
