@@ -16,7 +16,7 @@ interface Row {
   key: string;
   symbol: string;
   meaning: string;
-  bounds: Demand;
+  demand: Demand;
 }
 const COLUMNS = [
   { column: "actuator", patch: patchActuator },
@@ -26,17 +26,17 @@ const COLUMNS = [
 interface CellProps extends ServerNumber {
   label: string;
   describedBy: string;
-  bounds: Demand;
+  demand: Demand;
 }
 
-function Cell({ label, describedBy, bounds, ...held }: CellProps) {
+function Cell({ label, describedBy, demand, ...held }: CellProps) {
   const { shown, commit, edits } = useServerNumber(held);
   return (
     <td {...edits}>
       <NumberInput
         aria-label={label}
         describedBy={describedBy}
-        {...bounds}
+        {...demand}
         value={shown}
         onCommit={commit}
       />
@@ -58,9 +58,9 @@ const numberOf = (values: ActuatorParameters, key: string): number => Number(val
 function listRows({ actuator }: Models): Row[] {
   const name = nameOfActuator(actuator);
   const described = describeActuator(name)?.parameters ?? [];
-  const boundsOf = (key: string, unit: string): Demand => {
+  const demandOf = (key: string, label: string, unit: string): Demand => {
     const row = described.find((parameter) => parameter.name === key);
-    return { unit, min: row?.low ?? undefined, max: row?.high ?? undefined };
+    return { label, unit, min: row?.low ?? undefined, max: row?.high ?? undefined };
   };
   const common = Object.entries(words.names).filter(([key]) => typeof actuator[key] === "number");
   const own = described.filter(
@@ -71,13 +71,13 @@ function listRows({ actuator }: Models): Row[] {
       key,
       symbol,
       meaning: `${meaning}, ${unit}`,
-      bounds: boundsOf(key, unit),
+      demand: demandOf(key, `${symbol} ${meaning}`, unit),
     })),
     ...own.map(({ name: key, meaning, unit }) => ({
       key,
       symbol: "",
       meaning: unit === "1" ? meaning : `${meaning}, ${unit}`,
-      bounds: boundsOf(key, unit === "1" ? "" : unit),
+      demand: demandOf(key, meaning, unit === "1" ? "" : unit),
     })),
   ];
 }
@@ -106,7 +106,7 @@ export function ParameterTable({ actuator, nominal }: Models) {
           </tr>
         </thead>
         <tbody>
-          {rows.map(({ key, symbol, meaning, bounds }) => (
+          {rows.map(({ key, symbol, meaning, demand }) => (
             <tr key={key}>
               <th scope="row">
                 <i>{symbol}</i> <small>{meaning}</small>
@@ -117,7 +117,7 @@ export function ParameterTable({ actuator, nominal }: Models) {
                   name={nameOf(key, column)}
                   label={words.cell(`${symbol} ${meaning}`.trim(), words[column])}
                   describedBy={id}
-                  bounds={bounds}
+                  demand={{ ...demand, label: words.cell(demand.label ?? "", words[column]) }}
                   value={numberOf(held[column], key)}
                   send={(value) => patch({ [key]: value })}
                 />
