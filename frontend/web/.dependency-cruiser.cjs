@@ -16,8 +16,8 @@ const FOLDERS = [
   ["core/state"],
   ["core/stream"],
   ["core/api"],
-  ["core/quantities"],
-  ["core/armgeometry", "core/icons", "core/text", "core/units"],
+  ["core/quantities", "core/readnumber"],
+  ["core/armgeometry", "core/icons", "core/text", "core/translation", "core/units"],
 ];
 
 const within = (folders) => `^src/(${folders.join("|")})(/|\\.tsx?$)`;
