@@ -82,8 +82,10 @@ def test_untunable_law_and_excess_tuning_are_rejected(lab):
         assert reported in refused.json()["detail"]
     missing = lab.post(JOBS, json={"kind": "tuning", "law": "esp", "session": "nowhere"})
     assert missing.status_code == lab.get(f"{JOBS}/nothing").status_code == 404
-    names = [lab.post(JOBS, json={"kind": "tuning", "law": "pd"}).json()["id"] for _ in range(2)]
-    full = lab.post(JOBS, json={"kind": "tuning", "law": "pd"})
+    names = [
+        lab.post(JOBS, json={"kind": "tuning", "law": "fl_integral"}).json()["id"] for _ in range(2)
+    ]
+    full = lab.post(JOBS, json={"kind": "tuning", "law": "fl_integral"})
     assert full.status_code == 503
     assert "2 tunings run or wait" in full.json()["detail"]
     assert full.headers["Retry-After"] == str(RETRY_AFTER_S)
