@@ -58,7 +58,7 @@ test-all: .venv/installed $(PAGE)  ## run every test, as in CI
 
 quick: .venv/installed  ## run fast tests without server, bench or browser
 	@$(COMPILE_AND_TEST_PAGE)
-	$(BIN)/pytest $(BY_TWO) $(SHOWN) -q -m "not long and not exhaustive" $(SERVED:%=--ignore=tests/%)
+	$(BIN)/pytest $(BY_TWO) $(SHOWN) -q -m "not long and not exhaustive and not wall_clock" $(SERVED:%=--ignore=tests/%)
 
 check: .venv/installed $(PAGE)  ## check format, lint, terms, types, import layers, generated files
 	$(BIN)/ruff format --check .
