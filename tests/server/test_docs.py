@@ -155,7 +155,13 @@ def test_typed_address_leads_to_its_place_in_the_page(shared_lab: Lab, place: st
     assert place in answer.url.params
 
 
-NOTHING_TO_READ = {"renew_rejoin_code", "create_token", "renew_code", "submit_exercise"}
+NOTHING_TO_READ = {
+    "renew_rejoin_code",
+    "renew_rejoin_code_of",
+    "create_token",
+    "renew_code",
+    "submit_exercise",
+}
 """Operations that create something that only their answer returns."""
 
 

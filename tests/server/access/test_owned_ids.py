@@ -100,7 +100,7 @@ def record(browser: httpx.Client, session: str, name: str = SECRET) -> str:
 def add_job(room: Classroom, owner: str) -> str:
     """Add a job that waits indefinitely."""
     jobs = find_app(room).state.jobs
-    folder = Path(jobs._place.name) / "fedcba987654"
+    folder = jobs._folders.path / "fedcba987654"
     folder.mkdir()
     jobs._kept[folder.name] = Job("grading", SECRET, None, folder, owner)
     return folder.name

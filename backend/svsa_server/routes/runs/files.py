@@ -28,6 +28,9 @@ _FILES = {
 PAGE: dict[int | str, dict[str, Any]] = {
     200: {"content": {"text/html": {"schema": {"type": "string"}}}, "description": "The page"}
 }
+OpenAt = Annotated[
+    float | None, Query(alias="t", description="Time at which the page opens, s; the page reads it")
+]
 _write_page = partial(write_export, "html")
 router = build_router(tags=["runs"], responses=REFUSALS | BUSY)
 
@@ -58,7 +61,7 @@ async def export_run(
 
 @router.get("/runs/{run_id}/replay", response_class=StreamingResponse, responses=PAGE)
 @allow(OBSERVER)
-async def show_replay(runs: Runs, work: Work, run_id: RunId) -> StreamingResponse:
+async def show_replay(runs: Runs, work: Work, run_id: RunId, _: OpenAt = None) -> StreamingResponse:
     """Show the page of the export `html` in place; `?t=12.3` opens it at 12.3 s."""
     file = await work.write(_write_page, await asyncio.to_thread(runs.find_folder, run_id))
     return send_page(file)

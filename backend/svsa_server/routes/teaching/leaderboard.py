@@ -21,7 +21,7 @@ from svsa_server.jobs.submissions import Task, measure_laws
 from svsa_server.problems import UnknownError
 from svsa_server.routes.depends import BUSY, CREATED, REFUSALS, Locate, NamedPerson, Work
 from svsa_server.routes.evaluation.jobs import find_jobs
-from svsa_server.routes.runs.files import PAGE, send_page
+from svsa_server.routes.runs.files import PAGE, OpenAt, send_page
 from svsa_server.routing import build_router
 from svsa_server.runs.work import write_worst_run
 from svsa_server.schemas.evaluation.job import JobState, describe_job
@@ -60,6 +60,7 @@ async def show_worst_run(
     request: Request,
     work: Work,
     key: Annotated[str, Path(description="Key of an entry", examples=["fl"])],
+    _: OpenAt = None,
 ) -> StreamingResponse:
     """Show the worst run of an entry in 3D as a separate page; `?t=5` opens it at 5 s.
 
