@@ -1,6 +1,7 @@
 """The folder of a class or a season: a secret seed for trials, and one file per result."""
 
 import json
+import logging
 import os
 import secrets
 from collections.abc import Iterator
@@ -14,6 +15,7 @@ from svsa.runs.records.former_words import translate_results
 from svsa.runs.records.header import replace_file
 
 SECRET_BYTES = 32
+_log = logging.getLogger(__name__)
 T = TypeVar("T", bound=Checked)
 
 
@@ -67,13 +69,17 @@ class ClassFolder(Generic[T]):
         replace_file(self._results / f"{key}.json", text.encode())
 
     def read_all(self) -> Iterator[T]:
-        """Yield every result, in arbitrary order."""
-        return map(self._read, self._results.glob("*.json"))
+        """Yield every readable result, in arbitrary order; a damaged one is logged, and stays."""
+        for path in self._results.glob("*.json"):
+            try:
+                yield self._read(path)
+            except ParameterError as error:
+                _log.warning("A result is left out: %s", error)
 
     def _read(self, path: Path) -> T:
         try:
             return self._kind.model_validate(translate_results(json.loads(path.read_bytes())))
-        except (OSError, ValueError) as error:
+        except (OSError, ValueError, RecursionError) as error:
             name = self._kind.__name__.lower()
             raise ParameterError(Violation(name, path, "", f"one of svsa ({error})")) from None
 

@@ -67,13 +67,13 @@ class Memberships:
                     file.execute(f"ALTER TABLE member ADD {column} TEXT NOT NULL DEFAULT ''")
             rows = file.execute(f"SELECT {_COLUMNS} FROM member").fetchall()  # noqa: S608
             ended = file.execute("SELECT login FROM ended_login").fetchall()
-        self._ended_logins = {login for (login,) in ended}
-        self._members = {
-            id_: Membership(
-                Person(id_, name, Role[role.upper()]), return_hash, bool(ended), login, made_by
-            )
-            for id_, name, role, return_hash, ended, login, made_by in rows
-        }
+            self._ended_logins = {login for (login,) in ended}
+            self._members = {
+                id_: Membership(
+                    Person(id_, name, Role[role.upper()]), return_hash, bool(ended), login, made_by
+                )
+                for id_, name, role, return_hash, ended, login, made_by in rows
+            }
         self._owners = dict.fromkeys(list_keys(INSTRUCTOR.name), INSTRUCTOR.id)
         for membership in self._members.values():
             self._claim_name(membership.person)
@@ -203,8 +203,10 @@ class Memberships:
             os.close(os.open(self._path, os.O_RDWR | os.O_CREAT, 0o600))
             with closing(sqlite3.connect(self._path)) as file, file:
                 yield file
-        except (OSError, sqlite3.Error) as error:
+        # A flipped bit may also be read as a text that is not UTF-8, or as an unknown role.
+        except (OSError, sqlite3.Error, ValueError, KeyError, AttributeError) as error:
             raise SecurityError(
-                f"The members of the class in {self._path} cannot be kept ({error}): delete the"
-                " file while the lab is stopped, and all users join again."
+                f"The members of the class in {self._path} cannot be kept ({error}): while the lab"
+                " is stopped, restore the file from a backup, or delete it, and all users join"
+                " again."
             ) from None

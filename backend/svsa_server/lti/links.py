@@ -1,13 +1,16 @@
 """Links between grades and the platform's line items: targets, sent values, retries."""
 
+import logging
 import os
 import sqlite3
+import time
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from pathlib import Path
 from typing import NamedTuple
 
 FILE = "lti.sqlite"
+_log = logging.getLogger(__name__)
 _TABLE = (
     "CREATE TABLE IF NOT EXISTS link (person TEXT, exercise TEXT, issuer TEXT, client_id TEXT,"
     " user TEXT, line_item TEXT, sent TEXT NOT NULL DEFAULT '', tries INTEGER NOT NULL DEFAULT 0,"
@@ -38,15 +41,43 @@ class Link(NamedTuple):
 class Links:
     """The links, in a file that only this account can read.
 
+    A damaged file is renamed: each link is learned again at the user's next launch.
+
     Raises:
-        OSError, sqlite3.Error: If the file cannot be used.
+        OSError, sqlite3.OperationalError: If the file cannot be used.
     """
 
     def __init__(self, folder: Path) -> None:
         self._path = folder / FILE
         folder.mkdir(parents=True, exist_ok=True)
+        try:
+            self._prepare()
+        except sqlite3.OperationalError as error:
+            # Python reports a text that is not UTF-8 as such an error, without a code.
+            if getattr(error, "sqlite_errorcode", None) is not None:
+                raise  # locked, full disk, no permission
+            self._set_aside(error)
+        except (sqlite3.DatabaseError, ValueError, TypeError) as error:
+            self._set_aside(error)
+
+    def _prepare(self) -> None:
         with self._open() as file:
             file.execute(_TABLE)
+            (state,) = file.execute("PRAGMA integrity_check(1)").fetchone()
+        if state != "ok":
+            raise ValueError(state)
+        for link in self.list():
+            if not all(isinstance(text, str) for text in link[:7]):
+                raise ValueError("a field is not a text")
+            if not isinstance(link.tries, int) or not isinstance(link.due, float):
+                raise ValueError("a field is not a number")
+
+    def _set_aside(self, error: Exception) -> None:
+        aside = self._path.with_name(f"{FILE}.damaged-{time.time_ns()}")
+        self._path.rename(aside)
+        _log.warning("The links to platforms in %s are damaged (%s).", self._path, error)
+        _log.warning("They are kept as %s; each is learned at the next launch.", aside.name)
+        self._prepare()
 
     def list(self) -> list[Link]:
         """List all links."""
