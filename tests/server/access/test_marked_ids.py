@@ -90,7 +90,7 @@ NOT_IN_THE_SCHEMA = {
     "/learn/{exercise}/{step}": "the page",
     "/viser/{session}": "checked as it is in the schema (see `test_owned_ids`)",
     "/viser/{session}/": "the same",
-    "/viser/{session}/{path:path}": "the same",
+    "/viser/{session}/index.html": "the same",
     "/api/v1/sessions/{session}/stream": "the same, of the WebSocket",
 }
 """Paths with a parameter that no schema has."""

@@ -188,13 +188,14 @@ def test_streams_and_3d_views_disclose_no_session_of_another_user(
         ]
         assert found[0] == found[1], below
         assert found[0].startswith("websocket.close" if role and "viser" in below else str(status))
-    for below in ("/", "/x.js"):
+    # viser's page is its only file: another path is no route, which only an instructor may learn.
+    for below, expected in (("/", status), ("/x.js", 403 if role else 401)):
         found = [
             describe(browser.get(f"/viser/{name}{below}"), name)
             for name in (things.adas["session"], MISSING["session"])
         ]
         assert found[0] == found[1], below
-        assert found[0][0] == status
+        assert found[0][0] == expected
     owned = connect(things.room, things.ada, f"/api/v1/sessions/{things.adas['session']}/stream")
     assert owned == "websocket.accept"
 
