@@ -24,18 +24,13 @@ from svsa_scene.pose import POSE_CHANNELS, LaneSegment
 from svsa_scene.replay_curves import compute_metrics, pack_curves
 from svsa_scene.replay_motion import record_motion
 from svsa_scene.replay_packing import ArrayPack
+from svsa_scene.replay_policy import REPLAY_POLICY
 from svsa_scene.replay_scenes import ReplayArm
 
 MAX_LANES = 4
 
 _TITLE_MARK = "REPLAY_TITLE"
 _RUN_MARK = '"REPLAY_RUN"'
-REPLAY_POLICY = (
-    "default-src 'none'; script-src 'unsafe-inline' 'unsafe-eval' data: blob:;"
-    " style-src 'unsafe-inline'; img-src data: blob:; font-src data:; media-src data: blob:;"
-    " connect-src data: blob:; worker-src data: blob:; frame-src 'self'; base-uri 'none';"
-    " form-action 'none'"
-)
 
 
 class ReplayError(SvsaError):

@@ -11,7 +11,7 @@ from fastapi.responses import StreamingResponse
 
 from svsa.runs.records.export.formats import EXPORT_KINDS, build_file_name, get_kind
 from svsa.runs.records.resimulation import Comparison, check_simulated
-from svsa_scene.replay import REPLAY_POLICY
+from svsa_scene.replay_policy import REPLAY_POLICY
 from svsa_server.access.permissions import OBSERVER, allow
 from svsa_server.routes.depends import BUSY, REFUSALS, RunId, Runs, Work
 from svsa_server.routing import build_router
