@@ -77,7 +77,9 @@ def test_class_conforms_to_its_schema_in_every_role(classroom: Class, role: Role
     lab = classroom.come_as(role)
     permissions = build_app().state.permissions
     tried = 0
-    for one in read_operations(classroom.come_as(Role.INSTRUCTOR)):
+    operations = read_operations(classroom.come_as(Role.INSTRUCTOR))
+    # Leaving ends the token: last.
+    for one in sorted(operations, key=lambda one: one.path.endswith("/leave")):
         needed = permissions.find(one.method.upper(), one.path).permission.role
         is_let_in = needed is None or (role is not None and role >= needed)
         if is_let_in and needed is None and role is not None:

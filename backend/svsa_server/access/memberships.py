@@ -207,6 +207,6 @@ class Memberships:
         except (OSError, sqlite3.Error, ValueError, KeyError, AttributeError) as error:
             raise SecurityError(
                 f"The members of the class in {self._path} cannot be kept ({error}): while the lab"
-                " is stopped, restore the file from a backup, or delete it, and all users join"
+                " is stopped, restore it from a backup, or delete the file, and all users join"
                 " again."
             ) from None

@@ -140,7 +140,8 @@ def test_saved_object_of_another_user_is_no_source(classroom: Classroom) -> None
     ada, bob = classroom.join("Ada"), classroom.join("Bob")
     begun = ada.post(STUDIES, json={"source": "load", "runs": 4, "name": "mine"})
     ada.delete(f"{JOBS}/{begun.json()['job']['id']}").raise_for_status()
-    assert ada.post(STUDIES + "/check", json={"source": "mine"}).status_code == 200
+    again = {"source": "mine", "name": "mine-again"}
+    assert ada.post(STUDIES + "/check", json=again).status_code == 200
     assert read_kind(bob.post(STUDIES + "/check", json={"source": "mine"})) == "not_found"
 
 

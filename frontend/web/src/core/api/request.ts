@@ -63,7 +63,9 @@ export async function request(
   const requestId = method === "get" ? null : randomId();
   const headers: Record<string, string> = { ...extraHeaders, [CLIENT_HEADER]: client };
   if (requestId !== null) headers[REQUEST_HEADER] = requestId;
-  if (body !== undefined) headers["Content-Type"] = "application/json";
+  // The only bodies of text are CSV files.
+  const isCsv = typeof body === "string";
+  if (body !== undefined) headers["Content-Type"] = isCsv ? "text/csv" : "application/json";
   const sentMs = performance.now();
   let response: Response;
   let answer: unknown;
@@ -81,7 +83,7 @@ export async function request(
       method: method.toUpperCase(),
       cache: "no-store",
       headers,
-      ...(body !== undefined && { body: JSON.stringify(body) }),
+      ...(body !== undefined && { body: isCsv ? body : JSON.stringify(body) }),
       signal: silence.signal,
     });
     answer = parse(
