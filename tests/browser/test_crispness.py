@@ -93,6 +93,13 @@ def read_plot(page: Page) -> np.ndarray:
     return pixels[:, width // 4 : -width // 20]
 
 
+def wait_until_drawn(page: Page) -> None:
+    """Wait for messages that were passed on before the stream was held, and for their curves."""
+    newest = None
+    while newest != (newest := page.evaluate(LAST_TIME)):
+        page.evaluate(PASS_FRAMES, FRAMES)
+
+
 @pytest.mark.parametrize("ratio", [1.0, 1.25, 1.5, 2.0])
 def test_scrolled_curves_equal_newly_drawn_ones(
     accelerated: Browser, lab: Lab, ratio: float
@@ -113,7 +120,7 @@ def test_scrolled_curves_equal_newly_drawn_ones(
     page.evaluate(HIDE_BANNERS)
     wait_for_samples(page, page.evaluate(LAST_TIME) + SCROLL_S)
     stream.hold()
-    page.evaluate(PASS_FRAMES, FRAMES)
+    wait_until_drawn(page)
     scrolled = read_plot(page)
     entry = page.get_by_role("region", name="Torque plot").locator(".legend-entry").first
     for is_shown in ("false", "true"):

@@ -47,6 +47,7 @@ export interface Frame {
 
 interface Drawn extends Frame {
   look: object;
+  changesOfPast: number;
   /** Left edge, in pixels since time 0. */
   left: number;
 }
@@ -60,6 +61,7 @@ function isContinued(drawn: Drawn, next: Frame): boolean {
   return (
     drawn.look === palette.peek() &&
     drawn.ring === next.ring &&
+    drawn.changesOfPast === next.ring.changesOfPast &&
     Math.abs(length(drawn) - length(next)) < 1e-9 &&
     drawn.min === next.min &&
     drawn.max === next.max &&
@@ -105,7 +107,8 @@ export class StrokeLayer {
       }
       context.restore();
     }
-    this.#drawn = { ...frame, look: palette.peek(), left };
+    const { changesOfPast } = frame.ring;
+    this.#drawn = { ...frame, look: palette.peek(), changesOfPast, left };
   }
 
   /** Copy the drawn pixels onto a plot. */

@@ -65,6 +65,7 @@ export class SampleRing extends TimeRing {
   #lanes: Lane[] = [];
   /** The columns of `addChannelsFrom`. */
   readonly #added = new Set<string>();
+  #changesOfPast = 0;
 
   /**
    * @param lanes ids of the lanes
@@ -113,8 +114,14 @@ export class SampleRing extends TimeRing {
     }
   }
 
+  /** Increases when samples older than the newest change: what was drawn of them is outdated. */
+  get changesOfPast(): number {
+    return this.#changesOfPast;
+  }
+
   /** Insert samples of the past; samples that are newer than all of them stay. */
   insert(batch: Batch, periodS: number): void {
+    this.#changesOfPast++;
     const first = this.lowerBound((batch.firstTick + batch.count * batch.stride) * periodS);
     const times = this.timesFrom(first);
     const columns = this.#lanes.flatMap((lane) => [...lane.columns.values()]);
@@ -170,6 +177,7 @@ export class SampleRing extends TimeRing {
    * since then.
    */
   addChannelsFrom(source: SampleRing): void {
+    this.#changesOfPast++;
     const known = this.#columns.filter((name) => !this.#added.has(name));
     const missing = source.#columns.filter((name) => !known.includes(name));
     for (const name of missing) this.#added.add(name);

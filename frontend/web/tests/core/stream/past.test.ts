@@ -33,7 +33,9 @@ describe("the past after the first samples", () => {
     ring.append(batch(1000, 4), PERIOD_S);
     ring.insert(batch(900, 20), PERIOD_S);
     ring.append(batch(1020, 4, 10), PERIOD_S);
+    const drawn = ring.changesOfPast;
     ring.insert(batch(800, 20), PERIOD_S);
+    expect(ring.changesOfPast, "a plot draws all of it again").toBeGreaterThan(drawn);
     const expected = [...range(800, 1020), ...range(1020, 1060, 10)];
     expect(ticksOf(ring)).toEqual(expected);
     expect(ticksOf(ring, NAMES[1], 2)).toEqual(expected.map((tick) => -tick));
