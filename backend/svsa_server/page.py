@@ -19,8 +19,6 @@ PLACES = ("ranking", "falsifier", "grades", "leaderboard", "learn", "runs", "stu
 
 _HEADERS = {"Cache-Control": "no-cache", POLICY: PAGE_POLICY}
 _GUIDE_HEADERS = _HEADERS | {POLICY: GUIDE_POLICY}
-
-
 _KEPT = {"Cache-Control": "public, max-age=31536000, immutable"}
 """A file with another content has another name."""
 
@@ -31,9 +29,7 @@ class _Guide(CompressedFiles):
     async def get_response(self, path: str, scope: Scope) -> Response:
         if not (GUIDE / "index.html").is_file():
             return PlainTextResponse("The guide was not built: run `make docs`.", 503)
-        response = await super().get_response(path, scope)
-        response.headers.update(_GUIDE_HEADERS)
-        return response
+        return await super().get_response(path, scope)
 
 
 def build_page_routes() -> list[BaseRoute]:
@@ -42,7 +38,7 @@ def build_page_routes() -> list[BaseRoute]:
         Route("/", _serve_index),
         Route("/icon.svg", _serve_icon),
         Route("/docs", _serve_docs),
-        Mount("/docs/guide", allow(PUBLIC)(_Guide({}, directory=GUIDE, html=True))),
+        Mount("/docs/guide", allow(PUBLIC)(_Guide(_GUIDE_HEADERS, directory=GUIDE, html=True))),
         *(Route(f"/{place}", _redirect_to_page) for place in PLACES),
         Route("/learn/{exercise}", _lead_to_exercise),
         Route("/learn/{exercise}/{step}", _lead_to_exercise),

@@ -16,11 +16,13 @@ EFFECTS = {"encoders": {}, "estimation": {}, "delay_samples": 1}
 REPEATS = 4
 
 
-def open_sessions(lab: Lab, count: int, effects: dict | None = None, **wanted: object) -> list[str]:
+def open_sessions(
+    lab: Lab, count: int, effects: dict | None = None, **options: object
+) -> list[str]:
     """Open paused sessions with a full history; return their paths."""
     paths = []
     for _ in range(count):
-        opened = lab.client.post("/api/v1/sessions", json=wanted).raise_for_status()
+        opened = lab.client.post("/api/v1/sessions", json=options).raise_for_status()
         paths.append(f"/api/v1/sessions/{opened.json()['session']}")
         lab.client.post(paths[-1] + "/pause").raise_for_status()
         if effects is not None:
@@ -35,13 +37,13 @@ def end_sessions(lab: Lab, paths: list[str]) -> None:
         lab.client.delete(path).raise_for_status()
 
 
-def measure_session(lab: Lab, with_view: bool = False, **wanted: object) -> float:
+def measure_session(lab: Lab, with_view: bool = False, **options: object) -> float:
     """Return the memory of one session of a kind, MB, the mean of some; a first one is not counted,
     because imports and loaded code belong to no session.
     """
 
     def open_some(count: int) -> list[str]:
-        paths = open_sessions(lab, count, **wanted)
+        paths = open_sessions(lab, count, **options)
         for path in paths if with_view else ():
             lab.client.get(f"/viser/{path.rpartition('/')[2]}/").raise_for_status()
         return paths
@@ -65,14 +67,14 @@ def main() -> None:
     with run_lab(max_sessions=str(count)) as lab:
         lab.client.post(lab.session + "/pause").raise_for_status()
         print(f"server at rest                         {read_memory_mb(lab):7.1f} MB")
-        for title, wanted in {
+        for title, options in {
             "one lane": {},
             "two lanes": {"comparisons": [{"law": "fl"}]},
             "non-ideal effects": {"effects": EFFECTS},
             "arm, two joints": {"from": "arm", "arm": "rods"},
             "one lane and 3D view": {"with_view": True},
         }.items():
-            print(f"a session: {title:27} {measure_session(lab, **wanted):7.1f} MB", flush=True)
+            print(f"a session: {title:27} {measure_session(lab, **options):7.1f} MB", flush=True)
         before_mb = read_memory_mb(lab)
         paths = open_sessions(lab, count)
         print(

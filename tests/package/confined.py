@@ -16,6 +16,8 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
+from svsa.teaching.isolation.system_calls import find_number
+
 PROFILE = Path(__file__).parents[2] / "docs" / "deploy" / "seccomp.json"
 _ARCHITECTURES = {"x86_64": "amd64", "aarch64": "arm64"}
 _NEW_NETWORK, _ALGORITHMS = 0x40000000, 38
@@ -59,7 +61,7 @@ def load_profile(leave_out: str) -> None:
         ]
         for name in rule["names"]:
             # As Docker does: calls that this version of libseccomp does not know stay denied.
-            if (number := _find_number(name)) is not None:
+            if (number := find_number(name)) is not None:
                 compiled.add_rule(
                     actions[rule["action"]](rule.get("errnoRet", 1)), number, *arguments
                 )
@@ -71,7 +73,7 @@ def list_permitted(names: Sequence[str]) -> list[str]:
     libc = ctypes.CDLL(None, use_errno=True)
     permitted = []
     for name in names:
-        number = _find_number(name)
+        number = find_number(name)
         assert number is not None, name
         done = libc.syscall(number, *_ARGUMENTS.get(name, (0, 0, 0, 0, 0)))
         if name == "clone" and done == 0:
@@ -79,16 +81,6 @@ def list_permitted(names: Sequence[str]) -> list[str]:
         if done != -1 or ctypes.get_errno() != errno.EPERM:
             permitted.append(f"{name}: {errno.errorcode.get(ctypes.get_errno())}")
     return permitted
-
-
-def _find_number(name: str) -> int | None:
-    import pyseccomp
-
-    try:
-        number = pyseccomp.resolve_syscall(pyseccomp.Arch.NATIVE, name)
-    except (OSError, ValueError):
-        return None
-    return number if number >= 0 else None
 
 
 if __name__ == "__main__":

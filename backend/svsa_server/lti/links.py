@@ -3,11 +3,12 @@
 import logging
 import os
 import sqlite3
-import time
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from pathlib import Path
 from typing import NamedTuple
+
+from svsa.inputs.set_aside import SQLITE_FILES, set_aside
 
 FILE = "lti.sqlite"
 _log = logging.getLogger(__name__)
@@ -73,10 +74,14 @@ class Links:
                 raise ValueError("a field is not a number")
 
     def _set_aside(self, error: Exception) -> None:
-        aside = self._path.with_name(f"{FILE}.damaged-{time.time_ns()}")
-        self._path.rename(aside)
-        _log.warning("The links to platforms in %s are damaged (%s).", self._path, error)
-        _log.warning("They are kept as %s; each is learned at the next launch.", aside.name)
+        aside = set_aside(self._path, SQLITE_FILES)
+        _log.warning(
+            "The links to platforms in %s are damaged (%s). They are kept as %s; each is learned"
+            " again at the next launch.",
+            self._path,
+            error,
+            aside.name,
+        )
         self._prepare()
 
     def list(self) -> list[Link]:

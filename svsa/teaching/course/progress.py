@@ -6,7 +6,6 @@ set up. The first answer to a question is final, because its feedback contains t
 
 import json
 import logging
-import time
 from collections.abc import Sequence
 from glob import escape
 from pathlib import Path
@@ -15,6 +14,7 @@ from typing import Any
 
 from svsa.errors import StateError
 from svsa.inputs.checked import Checked, Flag, Number, Whole, quantity
+from svsa.inputs.set_aside import set_aside
 from svsa.runs.records import former_words
 from svsa.runs.records.former_words import translate_fields
 from svsa.runs.records.header import replace_file
@@ -265,7 +265,7 @@ class ProgressStore:
                 exercises = json.loads(content).get("exercises", {}).items()
                 return PersonProgress(exercises={name: _translate(at) for name, at in exercises})
             except (ValueError, AttributeError, TypeError) as error:
-                _set_aside(one, error)
+                _report_damage(one, error)
         return PersonProgress()
 
     def write(self, person: str, progress: PersonProgress) -> None:
@@ -297,9 +297,8 @@ def _find_previous(path: Path) -> Path:
     return path.with_suffix(".previous")
 
 
-def _set_aside(path: Path, error: Exception) -> None:
-    kept = path.with_name(f"{path.name}.damaged-{time.time_ns()}")
-    path.rename(kept)
+def _report_damage(path: Path, error: Exception) -> None:
+    kept = set_aside(path)
     _log.warning(
         "Course progress in %s is damaged (%s): it is kept as %s, and the version before it is"
         " used if there is one.",

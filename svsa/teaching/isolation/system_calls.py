@@ -46,7 +46,7 @@ def compile_filter() -> bytes:
         raise NotIsolatedError(f"system calls cannot be filtered ({error})") from None
     refused = pyseccomp.SyscallFilter(pyseccomp.ERRNO(1))
     for name in ALLOWED:
-        number = _find_number(name)
+        number = find_number(name)
         if number is not None:
             refused.add_rule(pyseccomp.ALLOW, number)
     for name, commands in _COMMANDS.items():
@@ -62,7 +62,7 @@ def compile_filter() -> bytes:
         return file.read()
 
 
-def _find_number(name: str) -> int | None:
+def find_number(name: str) -> int | None:
     """Find the number of a system call; None if this processor's kernel does not have it."""
     import pyseccomp
 

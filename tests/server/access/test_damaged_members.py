@@ -14,6 +14,8 @@ from svsa_server.lti.links import FILE as LINKS
 from svsa_server.lti.links import Link, Links
 
 SEEDS = range(60)
+JOURNAL = b"\xd9\xd5\x05\xf9\x20\xa1\x63\xd7\xff\xff\xff\xff" + bytes(500)
+"""The beginning of a journal of SQLite."""
 
 
 def damage(path: Path, seed: int) -> bytes:
@@ -61,6 +63,9 @@ def test_damaged_members_are_read_or_rejected_with_a_reason(
 def test_damaged_links_are_read_or_set_aside(files: Path, tmp_path: Path, seed: int) -> None:
     path = Path(shutil.copy(files / LINKS, tmp_path))
     content = damage(path, seed)
+    journal = tmp_path / f"{LINKS}-journal"
+    if seed % 5 == 0:  # of a process that was killed: applied to a new file, it would damage this
+        journal.write_bytes(JOURNAL + (files / LINKS).read_bytes()[: 100 * seed])
     links = Links(tmp_path)
     if aside := list(tmp_path.glob("*.damaged-*")):
         assert aside[0].read_bytes() == content

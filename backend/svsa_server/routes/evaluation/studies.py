@@ -85,25 +85,25 @@ def list_all_studies(request: Request, person: NamedPerson) -> StudyList:
 
 @router.post("/check", responses=BUSY)
 @allow(OBSERVER)
-async def check_study(request: Request, person: NamedPerson, wanted: StudyBody) -> StudyPlan:
+async def check_study(request: Request, person: NamedPerson, body: StudyBody) -> StudyPlan:
     """Check a study without starting it: what `POST /studies` rejects now is rejected.
 
     A wrong text is rejected with lines and bounds.
     """
-    stored = await _prepare(request, person, wanted)
+    stored = await _prepare(request, person, body)
     return describe_plan(stored.name, stored.study)
 
 
 @router.post("", status_code=201, responses=BUSY | CREATED)
 @allow(OPERATOR)
 async def start_study(
-    request: Request, locate: Locate, person: NamedPerson, wanted: StudyBody
+    request: Request, locate: Locate, person: NamedPerson, body: StudyBody
 ) -> StudyState:
     """Start or continue a study of this name as a job; live sessions are not delayed.
 
     In a class, only its user and the instructor see it and the runs of its rows.
     """
-    name, study, *_ = await _prepare(request, person, wanted)
+    name, study, *_ = await _prepare(request, person, body)
     stored = await asyncio.to_thread(keep_study, name, study, owner=person.id)
     job = find_jobs(request).start("study", stored.study.title, run, stored, person.id)
     locate(f"/studies/{name}")
@@ -209,9 +209,9 @@ async def replay_row(
     return replayed
 
 
-async def _prepare(request: Request, person: Person, wanted: StudyRequest) -> StoredStudy:
+async def _prepare(request: Request, person: Person, body: StudyRequest) -> StoredStudy:
     """Return the study of a request as it would be saved; raise why it cannot be started."""
-    name, study = await asyncio.to_thread(wanted.build, person)
+    name, study = await asyncio.to_thread(body.build, person)
     owner = await asyncio.to_thread(read_owner, name)
     if owner is not None and not person.may_change(owner):
         raise StudyError(f"The name {name} is taken by another study: give yours another name.")

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any, Concatenate, ParamSpec, TypeVar
 
 from svsa.inputs.file_lock import close_to_others
+from svsa.inputs.set_aside import SQLITE_FILES, set_aside
 from svsa.runs.records.catalogue.entry import (
     FACETS,
     CatalogueError,
@@ -27,7 +28,6 @@ from svsa.runs.records.catalogue.table import get, has, prepare, put, put_branch
 
 BUSY_TIMEOUT_S = 5.0
 _NEVER_NULL = ("created", "name", "session", "duration_s", "bytes", "plant")
-_OTHER_FILES = ("-wal", "-shm", "-journal")
 _OF_MACHINE = {
     sqlite3.SQLITE_PERM, sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED, sqlite3.SQLITE_NOMEM,
     sqlite3.SQLITE_READONLY, sqlite3.SQLITE_INTERRUPT, sqlite3.SQLITE_IOERR, sqlite3.SQLITE_FULL,
@@ -231,7 +231,7 @@ class Database:
 
     def _check_files(self) -> None:
         """Raise `DamagedCatalogueError` if a folder, pipe or link is in place of a file."""
-        for ending in ("", *_OTHER_FILES):
+        for ending in ("", *SQLITE_FILES):
             path = self._path.with_name(self._path.name + ending)
             if not path.is_file() and os.path.lexists(path):
                 raise DamagedCatalogueError(f"{path.name} is not a file")
@@ -280,13 +280,8 @@ class Database:
 
     def _set_aside(self, damage: DamagedCatalogueError) -> None:
         """Rename a damaged or foreign database; the folders of the runs have all its data."""
-        number = 1
-        while os.path.lexists(aside := self._path.with_name(f"{self._path.name}.damaged-{number}")):
-            number += 1
         try:
-            for ending in ("", *_OTHER_FILES):
-                with contextlib.suppress(FileNotFoundError):
-                    self._path.with_name(self._path.name + ending).rename(f"{aside}{ending}")
+            aside = set_aside(self._path, SQLITE_FILES)
         except OSError as error:
             raise CatalogueError(f"The catalogue {self._path} is damaged: {error}.") from None
         _log.warning("%s It was renamed to %s; the runs are indexed again.", damage, aside.name)
