@@ -5,7 +5,7 @@ import os
 from pathlib import Path
 
 SQLITE_FILES = ("-wal", "-shm", "-journal")
-"""Endings of the files beside a database: SQLite would apply them to a new one of the same name."""
+"""Endings of a database's other files: SQLite would apply them to a new one of the same name."""
 
 
 def set_aside(path: Path, endings: tuple[str, ...] = ()) -> Path:
