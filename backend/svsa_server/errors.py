@@ -21,7 +21,7 @@ from svsa.inputs.nesting import DEEPEST
 from svsa.runs.records.catalogue.entry import CatalogueError, ChangedRunError, UnknownRunError
 from svsa.runs.records.header import RecordError
 from svsa.teaching.isolation.refusal import NotIsolatedError
-from svsa_server.access.guard import find_path
+from svsa_server.access.guard import find_path, refuse_method
 from svsa_server.jobs.heavy_work import RETRY_AFTER_S, BusyError
 from svsa_server.leases.lease import HeldError
 from svsa_server.problems import (
@@ -146,11 +146,11 @@ def _refuse_route(request: Request, error: HTTPException) -> JSONResponse:
     if status == 404:
         kind, message = "not_found", f"Not found: {path}. /docs lists all routes."
     elif status == 405:
-        # The framework names the methods of the first matching route only.
-        methods = request.app.state.permissions.list_methods(find_path(request.scope))
-        allowed, kind = ", ".join(methods), "method_not_allowed"
-        headers = {"Allow": allowed}
-        message = f"{request.method} is not possible at {path}, but {allowed} is."
+        # HEAD; the framework names the methods of the first matching route only.
+        place = find_path(request.scope)
+        routes = request.app.state.permissions.list_routes(place)
+        refusal = refuse_method(request.method, place, routes)
+        kind, message, headers = refusal.kind, str(refusal), refusal.headers
     elif status == 400:
         kind = "malformed_json"
         message = (

@@ -21,11 +21,11 @@ from svsa_server.access.authentication import (
 )
 from svsa_server.access.origin import is_own_name, is_same_origin, read_host
 from svsa_server.access.owned import Kind, Owner, begin_claims
-from svsa_server.access.permissions import FROM_ELSEWHERE, WEBSOCKET, PermissionTable
+from svsa_server.access.permissions import FROM_ELSEWHERE, WEBSOCKET, Entry, PermissionTable
 from svsa_server.access.rates import Rates, find_kind
 from svsa_server.access.roles import ANY_USER, Person
 from svsa_server.config import is_loopback
-from svsa_server.problems import answer_problem
+from svsa_server.problems import LONGEST_ECHO, answer_problem
 
 LONGEST_BODY_BYTES = 4 * 1024 * 1024
 _TOO_LARGE = f"A request has at most {LONGEST_BODY_BYTES} bytes."
@@ -140,11 +140,13 @@ class AccessGuard:
     async def _admit(self, scope: Scope) -> Person | None:
         """The caller; None for an anonymous one, where that is allowed."""
         method = scope.get("method", WEBSOCKET)
-        permission = self._permissions.find(method, find_path(scope)).permission
+        permission, _, has_route = self._permissions.find(method, find_path(scope))
         headers = Headers(scope=scope)
         person = self._authentication.admit(headers)
         # Before the role is checked, so that wrong guesses count, too.
         self._count(scope, person)
+        if not has_route and method != WEBSOCKET:
+            self._check_method(method, find_path(scope), person)
         if permission.role is None or person is ANY_USER:
             return person
         if person is None:
@@ -157,6 +159,12 @@ class AccessGuard:
             message = f"This needs the role {permission.role.word}; yours is {person.role.word}."
             raise Refusal(403, "not_allowed", message)
         return person
+
+    def _check_method(self, method: str, path: str, person: Person | None) -> None:
+        """Reject a method that the routes of a path lack; without a login, of public paths only."""
+        routes = self._permissions.list_routes(path)
+        if routes and (person or any(entry.permission.role is None for entry in routes)):
+            raise refuse_method(method, path, routes)
 
     def _count(self, scope: Scope, person: Person | None) -> None:
         kind = find_kind(scope.get("method", ""), find_path(scope)) if self._rates else None
@@ -182,6 +190,13 @@ def read_address(scope: Scope) -> str:
 def find_path(scope: Scope) -> str:
     """The path below the prefix that a proxy serves the lab under."""
     return scope["path"].removeprefix(scope.get("root_path", "")) or "/"
+
+
+def refuse_method(method: str, path: str, routes: list[Entry]) -> Refusal:
+    """Build the rejection of a method that the routes of a path lack."""
+    allowed = ", ".join(sorted({entry.method for entry in routes}))
+    message = f"{method} is not possible at {path[:LONGEST_ECHO]}, but {allowed} is."
+    return Refusal(405, "method_not_allowed", message, {"Allow": allowed})
 
 
 def _bound_body(scope: Scope, receive: Receive) -> Receive:

@@ -2,8 +2,8 @@
 
 `allow` declares a permission at the function of a route. `PermissionTable` is built from the routes
 of the application and rejects a route without a permission, so the server does not start with one.
-A request without a matching route needs the instructor. Ids in a request are checked where they are
-validated (see `owned`).
+A request to a path without a route needs the instructor. Ids in a request are checked where they
+are validated (see `owned`).
 """
 
 from collections import Counter
@@ -112,10 +112,10 @@ class PermissionTable:
                 return Found(entry.permission, match.groupdict(), True)
         return Found(INSTRUCTOR_ONLY, {}, False)
 
-    def list_methods(self, path: str) -> list[str]:
-        """List the methods of the routes of a path, by name."""
+    def list_routes(self, path: str) -> list[Entry]:
+        """List the routes of a path, without WebSockets."""
         matches = (entry for entry, pattern in self._compiled if pattern.match(path))
-        return sorted({entry.method for entry in matches} - {WEBSOCKET})
+        return [entry for entry in matches if entry.method != WEBSOCKET]
 
     def write(self) -> str:
         """Return the complete table as text, one line for each method and path, by path."""
