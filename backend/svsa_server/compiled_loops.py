@@ -9,7 +9,7 @@ import time
 from svsa.actuators.elasticity import Actuator, ElasticActuator
 from svsa.actuators.installed import list_mechanism_names
 from svsa.actuators.parameters import SVSA
-from svsa.control.installed import get_law, is_usable
+from svsa.control.installed import get_law
 from svsa.numerics.compilation import is_compiled_before
 from svsa.simulation.arm.loop import advance_arm
 from svsa.simulation.loop.loop import advance
@@ -50,15 +50,6 @@ async def compile_for(actuator: str, law: str) -> None:
     async with _compiling:
         if not await asyncio.to_thread(is_compiled_for, actuator, law):
             await _compile(law, "--actuator", actuator)
-
-
-async def compile_law(law: str) -> None:
-    """Compile a law for the SVSA, as `compile_for`."""
-    control = get_law(law).control if is_usable(law) else None
-    if hasattr(control, "py_func"):
-        async with _compiling:
-            if not await asyncio.to_thread(is_compiled_before, control):
-                await _compile(law)
 
 
 async def compile_arm(actuators: tuple[str, str], law: str) -> None:

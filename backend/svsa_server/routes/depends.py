@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Callable
+from functools import partial
 from typing import Annotated, Any
 from urllib.parse import quote
 
@@ -27,7 +28,8 @@ from svsa_server.leases.lease import (
 from svsa_server.problems import ChangedError, Problem
 from svsa_server.routing import API
 from svsa_server.sessions.hosted import HostedSession
-from svsa_server.sessions.laboratory import SHARED_SESSION
+from svsa_server.sessions.laboratory import SHARED_SESSION, Laboratory
+from svsa_server.sessions.preparation import Conditions, conditions
 
 
 def find_operation(scope: Scope) -> tuple[str | None, str]:
@@ -95,13 +97,20 @@ async def find_session(
         HeldError: If the call changes the session while another client is in control.
     """
     await settle_claims()
-    found: HostedSession = connection.app.state.laboratory.get(session)
+    laboratory: Laboratory = connection.app.state.laboratory
+    found = laboratory.get(session)
     now = time.monotonic()
     found.lease.hear(client, now)
     asked = find_operation(connection.scope)
     if asked[0] in CHANGING and asked not in OPEN_TO_ALL:
         found.lease.check(client)
         found.lease.note_command(client, now)
+
+        def check() -> None:
+            laboratory.get(session)
+            found.lease.check(client)
+
+        conditions.set(Conditions(check, partial(_check_revision, found)))
     return found
 
 
@@ -116,10 +125,18 @@ async def check_unchanged(
     ] = None,
 ) -> None:
     """Raise `ChangedError` if another client has changed settings or loads since."""
-    if if_match is not None and if_match.strip('"') not in ("*", hosted.revision):
+    request = conditions.get()
+    if if_match is None or request is None or (revision := if_match.strip('"')) == "*":
+        return
+    _check_revision(hosted, revision)
+    conditions.set(request._replace(read_revision=lambda: hosted.revision))
+
+
+def _check_revision(hosted: HostedSession, revision: str) -> None:
+    if revision != hosted.revision:
         raise ChangedError(
             f"Session {hosted.session.name} was changed: its revision is {hosted.revision}, not"
-            f" {if_match[:40]}. Read it again, and repeat the change if it is still needed."
+            f" {revision[:40]}. Read it again, and repeat the change if it is still needed."
         )
 
 

@@ -26,6 +26,7 @@ from svsa_server.leases.lease import ControlLease
 from svsa_server.problems import TooManyError, UnknownError
 from svsa_server.sessions.hosted import HostedSession, LogEndedLease
 from svsa_server.sessions.lock import pause
+from svsa_server.sessions.preparation import prepare_change
 
 WAKE_PERIOD_S = 1.0 / 60.0
 OPERATOR_POLL_S = 0.005
@@ -129,7 +130,8 @@ class Laboratory:
                 " end one, or wait for an idle one to end."
             )
 
-    def _add(self, session: Session, owner: str) -> HostedSession:
+    def _add(self, session: SimulatedSession, owner: str) -> HostedSession:
+        session.prepare = prepare_change
         hosted = self.sessions[session.name] = HostedSession(
             session, time.monotonic(), owner, log_ended_lease=self._note_settled
         )
@@ -210,6 +212,7 @@ def build_shared_session(bench: Path | None, design: Design | None = None) -> Se
         return BenchSession(SHARED_SESSION, bench, first, operator, pause)
     configuration = get_figure("4a").build_configuration(load=False, design=design)
     session = SimulatedSession(SHARED_SESSION, configuration)
+    session.prepare = prepare_change
     session.start()
     return session
 

@@ -2,22 +2,19 @@
 
 import asyncio
 
-import numpy as np
 from fastapi import FastAPI
 
 from svsa.actuators.installed import find_mechanism
 from svsa.actuators.parameters import SVSA
-from svsa.actuators.signals import CHANNELS
 from svsa.errors import StateError
 from svsa.evaluation.falsifier.measure import list_baselines
 from svsa.evaluation.ranking.scenarios import find_scenario
 from svsa.evaluation.ranking.single_run import build_shown_run
-from svsa.runs.arm.run import build_run
 from svsa.runs.configuration import Configuration, Lane
 from svsa.runs.experiment import build_default_load
 from svsa.runs.records.resimulation import check_simulated, read_origin
 from svsa.simulation.plant.loads.paper import PaperLoad
-from svsa_server.compiled_loops import compile_arm, compile_for, compile_law
+from svsa_server.compiled_loops import compile_arm, compile_for
 from svsa_server.jobs.falsifications import read_found
 from svsa_server.jobs.queue import Job
 from svsa_server.schemas.lab.opening import (
@@ -34,6 +31,7 @@ from svsa_server.schemas.lab.opening import (
 from svsa_server.sessions.evaluated_design import build_trial
 from svsa_server.sessions.hosted import HostedSession
 from svsa_server.sessions.laboratory import Laboratory
+from svsa_server.sessions.preparation import rehearse
 
 LOAD_S = 1.0
 """Onset of the load in a session that shows a design, s."""
@@ -63,15 +61,16 @@ async def open_session(app: FastAPI, wanted: SessionRequest, owner: str) -> Host
         case FromRanking():
             scenario = find_scenario(wanted.scenario)
             shown = await asyncio.to_thread(build_shown_run, scenario, wanted.row)
+            await asyncio.to_thread(rehearse, shown.configuration)
             return laboratory.create(shown.configuration, owner, shown.alone)
         case FromActuator():
             for law in {wanted.law, *(lane.law for lane in wanted.comparisons)}:
                 await compile_for(wanted.actuator, law)
-            configuration = await asyncio.to_thread(_prepare, wanted)
+            configuration = await asyncio.to_thread(wanted.build_configuration)
         case FromArm():
             for law in {wanted.law, *(lane.law for lane in wanted.comparisons)}:
                 await compile_arm(wanted.list_actuators(), law)
-            configuration = await asyncio.to_thread(_prepare, wanted)
+            configuration = await asyncio.to_thread(wanted.build_configuration)
         case FromFigure():
             configuration = wanted.build_configuration(app.state.design)
         case FromScenario():
@@ -84,17 +83,8 @@ async def open_session(app: FastAPI, wanted: SessionRequest, owner: str) -> Host
             configuration = tried.changed(loads=(load,), comparisons=())
         case FromFalsification():
             configuration = _build_found(app.state.jobs.get(wanted.id, "falsification"))
-    for law in dict.fromkeys(lane.law for lane in configuration.lanes):
-        await compile_law(law)
+    await asyncio.to_thread(rehearse, configuration)
     return laboratory.create(configuration, owner)
-
-
-def _prepare(wanted: FromActuator | FromArm) -> Configuration:
-    """The configuration, with every function of its loop compiled."""
-    configuration = wanted.build_configuration()
-    run = build_run(configuration)
-    run.advance(np.empty((len(run.lanes), 1, len(CHANNELS))))
-    return configuration
 
 
 def _build_found(job: Job) -> Configuration:

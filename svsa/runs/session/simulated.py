@@ -1,6 +1,6 @@
 """The session of a simulated run."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from typing import Self
 
 from svsa.errors import Fault, StateError
@@ -15,10 +15,20 @@ from svsa.runs.session.journal import Journal
 from svsa.runs.session.session import PROGRAM_ERROR, Status
 
 BURST_TICKS = 2_000
+Prepare = Callable[[Configuration, Sequence[Command]], None]
+BuildCommands = Callable[[Configuration], list[Command]]
+
+
+def prepare_nothing(configuration: Configuration, commands: Sequence[Command]) -> None:
+    """Do nothing: code is compiled and loaded by the change that needs it."""
 
 
 class SimulatedSession:
-    """A `Session` of a simulated run: a clock determines the due ticks."""
+    """A `Session` of a simulated run: a clock determines the due ticks.
+
+    `prepare`: Called with the configuration and the commands before they change it, and with a new
+    configuration before its run starts. It may let time pass, in which the session continues.
+    """
 
     def __init__(self, name: str, configuration: Configuration) -> None:
         self.name = name
@@ -26,6 +36,7 @@ class SimulatedSession:
         self.journal = Journal(build_run(configuration))
         self.clock = SimulationClock(configuration.sampling.period_s)
         self._running = False
+        self.prepare: Prepare = prepare_nothing
 
     @classmethod
     def branch(
@@ -90,6 +101,7 @@ class SimulatedSession:
 
     def load(self, configuration: Configuration) -> None:
         """Start a new run of this configuration at t = 0; running or paused as before."""
+        self.prepare(configuration, ())
         run = build_run(configuration)
         self.journal.stop_recording()
         self.clock.begin()
@@ -166,13 +178,12 @@ class SimulatedSession:
 
     def change(self, command: Command) -> Command:
         """Apply a command at the current tick, and return it with this tick."""
-        self.journal.check(command)
-        return self.journal.enter(command.at(self.run.tick))
+        (command,) = self._prepare(lambda _: [command])
+        return self._enter(command)
 
     def set(self, command: Command) -> None:
         """Apply a command unless nothing would change."""
-        if not is_held(self.run.configuration, command):
-            self.change(command)
+        self._set(lambda _: [command])
 
     def patch(
         self,
@@ -181,13 +192,29 @@ class SimulatedSession:
         again: bool = False,
     ) -> None:
         """Apply `set` with the command that `build` derives from each joint's configuration."""
-        present = self.run.configuration
-        commands, after = list_joint_commands(present, build, joint), present
+        self._set(lambda present: list_joint_commands(present, build, joint), again)
+
+    def _set(self, build: BuildCommands, again: bool = False) -> None:
+        commands, after = self._prepare(build), self.run.configuration
+        present = after
         for command in commands:
             after = fold(after, command)
         for command in commands:
             if again or not is_held(present, command):
-                self.change(command)
+                self._enter(command)
+
+    def _prepare(self, build: BuildCommands) -> list[Command]:
+        """Prepare the commands for the present configuration, which may change meanwhile."""
+        while True:
+            present = self.run.configuration
+            commands = build(present)
+            self.prepare(present, commands)
+            if self.run.configuration is present:
+                return commands
+
+    def _enter(self, command: Command) -> Command:
+        self.journal.check(command)
+        return self.journal.enter(command.at(self.run.tick))
 
     def prepare_recording(self) -> None:
         """Check as `Journal.check_recordable`."""

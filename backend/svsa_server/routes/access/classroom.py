@@ -31,6 +31,7 @@ from svsa_server.schemas.access.classroom import (
 )
 from svsa_server.sessions.hosted import HostedSession
 from svsa_server.sessions.laboratory import SHARED_SESSION, Laboratory
+from svsa_server.sessions.lock import run_waiting
 
 router = build_router("/class", tags=["class"], responses={409: REFUSALS[409]})
 _SCALE = 6
@@ -143,12 +144,12 @@ async def broadcast(request: Request) -> BroadcastState:
     laboratory = _find_laboratory(request)
     commands = list_settings(laboratory.get(SHARED_SESSION).session.run.configuration)
     taken, refused = 0, []
-    for name, hosted in laboratory.sessions.items():
+    for name, hosted in list(laboratory.sessions.items()):
         if name == SHARED_SESSION:
             continue
         try:
             for command in commands:
-                hosted.session.set(command)
+                await run_waiting(hosted.session.set, command)
         except SvsaError as error:
             refused.append(f"{name}: {error}")
         else:
