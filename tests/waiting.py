@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any, TypeVar
 
 import httpx
@@ -43,3 +44,12 @@ def follow(
 def follow_recording(client: httpx.Client, path: str) -> dict[str, Any]:
     """Return the entry of a recorded run once its file is complete."""
     return follow(client, path, lambda run: run["state"] != "recording")
+
+
+def is_running(process: int) -> bool:
+    """Whether a process exists; one that its new parent has not waited for has ended."""
+    try:
+        state = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0]
+    except FileNotFoundError:
+        return False
+    return state != "Z"

@@ -19,6 +19,8 @@ from svsa.evaluation.workers import start_workers
 
 MAX_WORKERS = max(1, min(4, (os.cpu_count() or 1) // 2))
 RETRY_AFTER_S = 5
+IDLE_S = 30.0
+"""Time after which idle workers end: each keeps 200 to 400 MB of compiled code and libraries."""
 _JOBS_A_WORKER = 100
 
 T = TypeVar("T")
@@ -29,7 +31,7 @@ class BusyError(SvsaError):
 
 
 class HeavyWork:
-    """The worker processes of one server, started when first needed.
+    """The worker processes of one server, started when needed and ended when idle.
 
     `most` is the maximum number of running and waiting jobs, `workers` the number of processes.
     """
@@ -37,6 +39,7 @@ class HeavyWork:
     def __init__(self, most: int, workers: int = MAX_WORKERS) -> None:
         self._most, self._workers = most, workers
         self._taken = 0
+        self._ending: asyncio.TimerHandle | None = None
         self._pool: ProcessPoolExecutor | None = None
         self._handing_over = threading.Lock()
         self._is_closed = False
@@ -49,6 +52,8 @@ class HeavyWork:
                 f" in progress, the maximum of this lab: try again in {RETRY_AFTER_S} s."
             )
         self._taken += 1
+        if self._ending is not None:
+            self._ending.cancel()
         try:
             # In a thread: the first worker process takes 2.4 s of processor time to start, which
             # would block the event loop.
@@ -61,6 +66,8 @@ class HeavyWork:
             raise BusyError("The process of this job has ended: try again.") from None
         finally:
             self._taken -= 1
+            if not self._taken:
+                self._ending = asyncio.get_running_loop().call_later(IDLE_S, self.end_workers)
 
     async def write(self, job: Callable[[Path, Path], None], folder: Path) -> IO[bytes]:
         """Run a job that writes a file from a record's folder; return the open, already unlinked

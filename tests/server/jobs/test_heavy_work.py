@@ -16,7 +16,7 @@ from svsa_server.problems import TYPE_PREFIX
 from tests.lab import Lab
 from tests.lab_in_process import run_lab_in_process
 from tests.server.jobs.done_by_workers import end, get_process, note_and_sleep, refuse, wait_for
-from tests.waiting import follow_recording, wait_until
+from tests.waiting import follow_recording, is_running, wait_until
 
 
 @pytest.fixture
@@ -30,6 +30,25 @@ def test_job_runs_in_another_process_of_the_lowest_priority(work):
     process, niceness = asyncio.run(work.run(get_process))
     assert process != os.getpid()
     assert niceness == 10
+
+
+def test_idle_worker_ends_and_the_next_job_starts_another(work, monkeypatch, tmp_path):
+    monkeypatch.setattr(heavy_work, "IDLE_S", 0.1)
+
+    async def work_twice():
+        first, _ = await work.run(get_process)
+        waiting = asyncio.create_task(work.run(wait_for, tmp_path / "go"))
+        await asyncio.sleep(0.2)  # A worker that works is not idle.
+        (tmp_path / "go").touch()
+        await waiting
+        while work._pool is not None:
+            await asyncio.sleep(0.01)
+        second, _ = await work.run(get_process)
+        return first, second
+
+    first, second = asyncio.run(asyncio.wait_for(work_twice(), 60.0))
+    assert first != second
+    wait_until(lambda: not is_running(first))
 
 
 def test_full_queue_is_reported_and_queued_jobs_are_completed(work, tmp_path):
