@@ -3,7 +3,6 @@
 import asyncio
 import re
 import subprocess
-import sys
 import time
 
 from svsa.actuators.elasticity import Actuator, ElasticActuator
@@ -11,14 +10,12 @@ from svsa.actuators.installed import list_mechanism_names
 from svsa.actuators.parameters import SVSA
 from svsa.control.installed import get_law
 from svsa.numerics.compilation import is_compiled_before
+from svsa.numerics.separate_compilation import build_child
 from svsa.simulation.arm.loop import advance_arm
 from svsa.simulation.loop.loop import advance
 
 LOWEST_PRIORITY = 19
-COMPILE = (
-    f"import os; os.nice({LOWEST_PRIORITY}); from svsa.cli import main; main()",
-    "compile",
-)
+COMPILE = f"import os; os.nice({LOWEST_PRIORITY}); from svsa.cli import main; main()"
 _OTHER_LOOP, _OTHER_LAW = ElasticActuator.__name__, "torques_address"
 """Names in the types of the loop and of a law for another actuator than the SVSA."""
 _PLANT = re.compile(r"\bBlocks\((\w+)")
@@ -70,9 +67,8 @@ def _is_compiled_for_arm(actuators: tuple[str, str], law: str) -> bool:
 async def _compile(*arguments: str) -> None:
     _begun[:] = [time.monotonic()]
     process = await asyncio.create_subprocess_exec(
-        sys.executable,
-        "-c",
-        *COMPILE,
+        *build_child(COMPILE),
+        "compile",
         *arguments,
         stdin=subprocess.DEVNULL,
         stdout=subprocess.DEVNULL,

@@ -10,6 +10,8 @@ import pickle
 import signal
 import subprocess
 import sys
+import threading
+import time
 from collections.abc import Callable
 from importlib import import_module
 from threading import Lock
@@ -24,6 +26,7 @@ CHILD = (
     "import pickle, sys; sys.path[:] = pickle.load(sys.stdin.buffer);"
     " from svsa.numerics.separate_compilation import compile_request; compile_request()"
 )
+WATCH_S = 0.2
 _INVALID_FUNCTION = 3
 """Exit code of the child if the compiler rejects the function, which the parent reports itself."""
 _MEMORY = "The server keeps the memory of the compiler, up to 0.5 GB, until it ends."
@@ -39,6 +42,31 @@ def compile_in_children(report: Callable[[str], None]) -> None:
     Functions are compiled in this process, and reported once, if the cache cannot be written.
     """
     _reports[:] = [report]
+
+
+def build_child(program: str) -> tuple[str, ...]:
+    """Build the command of a Python process that ends with this one, even if that is killed.
+
+    Args:
+        program: Python code.
+    """
+    bound = f"from svsa.numerics.separate_compilation import end_with; end_with({os.getpid()})"
+    return sys.executable, "-c", f"{bound}; {program}"
+
+
+def end_with(parent: int) -> None:
+    """End this process once its parent has ended, which Windows does not report.
+
+    Args:
+        parent: Process id of the parent.
+    """
+
+    def watch() -> None:
+        while os.getppid() == parent:
+            time.sleep(WATCH_S)
+        os._exit(1)
+
+    threading.Thread(target=watch, daemon=True).start()
 
 
 def describe_end(code: int, errors: str) -> str:
@@ -78,7 +106,7 @@ def prepare_code(dispatcher: Any, signature: Any) -> None:
         try:
             ended = subprocess.run(  # noqa: S603  this program itself
                 [sys.executable, "-c", CHILD],
-                input=pickle.dumps(sys.path) + dumps(name) + dumps(signature),
+                input=pickle.dumps(sys.path) + dumps((os.getpid(), *name)) + dumps(signature),
                 stdout=subprocess.DEVNULL,
                 stderr=subprocess.PIPE,
                 check=False,
@@ -131,7 +159,8 @@ def _find_function(module: str, name: str) -> Any:
 
 def compile_request() -> None:
     """Compile the function that the parent has written to standard input, into the cache."""
-    module, name = pickle.load(sys.stdin.buffer)  # noqa: S301  written by the parent
+    parent, module, name = pickle.load(sys.stdin.buffer)  # noqa: S301  written by the parent
+    end_with(parent)
     import_module(module)
     try:
         _find_function(module, name).compile(pickle.load(sys.stdin.buffer))  # noqa: S301

@@ -23,7 +23,7 @@ def test_actuator_is_compiled_in_a_process_while_other_requests_are_served(monke
         return started.exists() and kind != ""
 
     monkeypatch.setattr(compiled_loops, "is_compiled_before", is_compiled)
-    monkeypatch.setattr(compiled_loops, "COMPILE", (program,))
+    monkeypatch.setattr(compiled_loops, "COMPILE", f"exec({program!r})")
     monkeypatch.setattr(compiled_loops, "_compiling", asyncio.Lock())
     assert compiled_loops.is_compiled_for("svsa", "ndobc")
     assert not compiled_loops.is_compiled_for("qbmove", "ndobc")
@@ -44,7 +44,7 @@ def test_actuator_is_compiled_in_a_process_while_other_requests_are_served(monke
     assert len(waited) > 10
     assert waited == sorted(waited)
     assert compiled_loops.find_compiling_s() is None
-    assert started.read_text() == "['ndobc', '--actuator', 'qbmove'];"
+    assert started.read_text() == "['compile', 'ndobc', '--actuator', 'qbmove'];"
 
 
 @pytest.mark.exhaustive

@@ -3,7 +3,6 @@ may select, the laws and the loop of other actuators.
 """
 
 import subprocess
-import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -13,7 +12,12 @@ from svsa.actuators.parameters import SVSA
 from svsa.cli import prepare
 from svsa.control.installed import PAPERS_LAW, get_law, is_usable, list_law_names
 from svsa.numerics.compilation import is_compiled_before
-from svsa.numerics.separate_compilation import can_store, compile_in_children, describe_end
+from svsa.numerics.separate_compilation import (
+    build_child,
+    can_store,
+    compile_in_children,
+    describe_end,
+)
 from svsa.simulation.loop.loop import advance
 from svsa_server.compiled_loops import LOWEST_PRIORITY, is_compiled_for
 
@@ -23,7 +27,7 @@ PREPARE = (
     f"import os; os.nice({LOWEST_PRIORITY}); from svsa.cli import prepare;"
     f" prepare(); prepare([{PAPERS_LAW!r}], {OTHER!r})"
 )
-COMPILE_FIRST = "from svsa.cli import main; main()", "compile"
+COMPILE_FIRST = "from svsa.cli import main; main()"
 END_S = 2.0
 
 
@@ -42,7 +46,7 @@ def prepare_apart(
     is_stored = is_stored and all(_is_compiled(get_law(name).control) for name in names)
     if not is_stored and can_store(advance):
         # It writes to the console of this process, as `prepare` does.
-        command = [sys.executable, "-c", *COMPILE_FIRST, *laws, "--actuator", actuator]
+        command = [*build_child(COMPILE_FIRST), "compile", *laws, "--actuator", actuator]
         code = subprocess.run(command, stdin=subprocess.DEVNULL, check=False).returncode  # noqa: S603
     if code == 0:
         compile_in_children(report)
@@ -70,7 +74,7 @@ def compile_laws() -> Iterator[None]:
         yield
         return
     process = subprocess.Popen(  # noqa: S603  this program itself
-        [sys.executable, "-c", PREPARE],
+        build_child(PREPARE),
         stdin=subprocess.DEVNULL,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,

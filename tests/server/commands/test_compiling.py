@@ -11,7 +11,7 @@ from svsa_server.commands.compiling import compile_laws
 from svsa_server.compiled_loops import is_compiled_for
 from tests.benchmarks.attacks import read_memory_mb
 from tests.lab import run_lab
-from tests.waiting import wait_until
+from tests.waiting import is_running, wait_until
 
 WAIT = "import time; time.sleep(600)"
 
@@ -47,7 +47,7 @@ def test_compiling_process_ends_with_the_server(started, monkeypatch):
     monkeypatch.setattr(compiling, "PREPARE", WAIT)
     with compile_laws():
         (process,) = started
-        assert process.args == [sys.executable, "-c", WAIT]
+        assert process.args[-1].endswith(WAIT)
         assert process.poll() is None
     assert process.poll() is not None
 
@@ -85,3 +85,25 @@ def test_server_that_has_compiled_is_as_small_as_one_that_has_loaded_its_code(tm
             lab.client.post("/api/v1/sessions", json={"law": "lqi"}).raise_for_status()
             sizes_mb.append(read_memory_mb(lab))
     assert sizes_mb[0] - sizes_mb[1] < 40.0
+
+
+@pytest.mark.parametrize("kind", ["first law", "other laws", "request"])
+def test_compiling_process_ends_with_a_killed_server(kind, tmp_path):
+    ready = tmp_path / "pid"
+    child = f"import os; open({str(ready)!r}, 'w').write(f'{{os.getpid()}};'); {WAIT}"
+    start = {
+        "first law": "compiling.COMPILE_FIRST = child; is_stored = lambda *_: False;"
+        " compiling.is_compiled_before = is_stored; compiling.prepare_apart(print)",
+        "other laws": "compiling.PREPARE = child; compiling._is_compiled = lambda _: False\n"
+        "with compiling.compile_laws(): time.sleep(600)",
+        "request": "compiled_loops.COMPILE = child; asyncio.run(compiled_loops._compile('ndobc'))",
+    }[kind]
+    program = (
+        "import asyncio, time; from svsa_server import compiled_loops;"
+        f" from svsa_server.commands import compiling; child = {child!r}\n{start}"
+    )
+    server = subprocess.Popen([sys.executable, "-c", program])
+    wait_until(lambda: ready.exists() and ready.read_text().endswith(";"))
+    server.kill()
+    server.wait()
+    wait_until(lambda: not is_running(int(ready.read_text()[:-1])))
