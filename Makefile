@@ -56,6 +56,7 @@ test-all: .venv/installed $(PAGE)  ## run every test, as in CI
 	$(BIN)/pytest $(BY_FOUR) $(SLOWEST) -m "not wall_clock"
 	$(BIN)/pytest $(SLOWEST) -m wall_clock $(WALL_CLOCK)
 
+quick: COMPILED = --quick
 quick: .venv/installed  ## run fast tests without server, bench or browser
 	@$(COMPILE_AND_TEST_PAGE)
 	$(BIN)/pytest $(BY_TWO) $(SHOWN) -q -m "not long and not exhaustive and not wall_clock" $(SERVED:%=--ignore=tests/%)

@@ -1,9 +1,10 @@
-"""Compile what the tests use, before they begin: `python -m tests.compile_all [--exhaustive]`.
+"""Compile what the tests use, before they begin: `python -m tests.compile_all [option]`.
 
 Compilation during a test takes seconds, which could delay the test or a rig in parallel. The
 summary of the tests lists functions that are still compiled during a test, but not those that are
-compiled in a server. --exhaustive: also compiles for `make test-all`: the batches of each law, and
-the loop for a processor without any extension.
+compiled in a server. --quick: without what `make quick` leaves out: benches, batches and the
+identification. --exhaustive: also compiles for `make test-all`: the batches of each law, and the
+loop for a processor without any extension.
 """
 
 import os
@@ -31,23 +32,25 @@ from tests.runs.paper.golden import GENERIC
 from tests.runs.session.sessions import EVERY_EFFECT, SHOWN_IN_BATCHES
 
 TICKS, STIFFNESS, GROUP = 10, 15.0, 8
-BATCHES, EXHAUSTIVE = "batches", "--exhaustive"
+BATCHES, QUICK, EXHAUSTIVE = "batches", "--quick", "--exhaustive"
 
 
 def main() -> None:
     """Compile on two cores: the loop and its callers here, independent functions in other
     processes.
     """
-    processes = [start("tests.compile_all", BATCHES, *sys.argv[1:])]
+    processes = [] if QUICK in sys.argv else [start("tests.compile_all", BATCHES, *sys.argv[1:])]
     if EXHAUSTIVE in sys.argv:
         processes.append(start("tests.runs.paper.golden", "--figures", **GENERIC))
     prepare()
     prepare([PAPERS_LAW], OTHER)
     svsa.Stepper().step((0.0, 0.0))
-    compile_bench()
-    compile_identification()
+    svsa.simulate_arm(duration_s=0.01)
     predict(FIGURES["4a"].build_configuration("ndobc"), STIFFNESS)
     compare_with_scipy(repeats=1, duration_s=0.02)
+    if QUICK not in sys.argv:
+        compile_bench()
+        compile_identification()
     for process in processes:
         assert process.wait() == 0, process.args
 
@@ -79,13 +82,17 @@ def compile_identification() -> None:
     identify(build_run(configuration, play(configuration, [], 6.5)[0]))
 
 
-def compile_batches(laws: Iterable[str]) -> None:
-    """Compile batches with all effects and with none, for laws with the effects of the rig."""
+def compile_batches() -> None:
+    """Compile batches with all effects, and with those of the rig for the laws that are shown; for
+    `make test-all` also with none, and for each law.
+    """
+    ideal: tuple[str, ...] = ()
+    laws: Iterable[str] = SHOWN_IN_BATCHES
+    if EXHAUSTIVE in sys.argv:
+        ideal, laws = ("ndobc", "fl", "fl_integral"), list_law_names()
     for law, effects in (
         ("ndobc", EVERY_EFFECT),
-        ("ndobc", svsa.IDEAL),
-        ("fl", svsa.IDEAL),
-        ("fl_integral", svsa.IDEAL),
+        *((law, svsa.IDEAL) for law in ideal),
         *((law, svsa.RIG) for law in laws),
     ):
         configuration = FIGURES["4a"].build_configuration(law).changed(effects=effects, seed=7)
@@ -102,9 +109,8 @@ def compile_trials() -> None:
 
 
 if __name__ == "__main__":
-    laws = list_law_names() if EXHAUSTIVE in sys.argv else SHOWN_IN_BATCHES
     if BATCHES in sys.argv:
-        compile_batches(laws)
+        compile_batches()
         compile_trials()
     else:
         main()

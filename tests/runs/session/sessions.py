@@ -10,7 +10,7 @@ from svsa.simulation.plant.effects import EVERY
 PULSE = svsa.PulseLoad(torque_nm=(1.0, 0.0, 0.0), duration_s=0.02, start_s=0.03)
 ALL = list(range(len(CHANNELS)))
 EVERY_EFFECT = EVERY
-SHOWN_IN_BATCHES = ("ndobc", "fl", "ndobc_w", "ilc")
+SHOWN_IN_BATCHES = ("ndobc", "fl")
 """The laws that `make test` runs in batches with the effects of the rig and on the loop of the
 bench: without a memory, with a memory of numbers and of records, and one called for one run after
 the other.
