@@ -1,6 +1,7 @@
 """M, C and g against Lagrange's equations of the links, derived from their energies by sympy."""
 
 import math
+from functools import cache
 
 import numpy as np
 import pytest
@@ -28,6 +29,7 @@ angles = st.floats(-math.pi, math.pi)
 speeds = st.floats(-8.0, 8.0)
 
 
+@cache
 def derive_torques():
     """τ(q, q̇, q̈) of two rigid bodies and a point mass, from d/dt ∂L/∂q̇ − ∂L/∂q."""
     t, p = sp.Symbol("t"), ARM
@@ -49,9 +51,6 @@ def derive_torques():
     return sp.lambdify(values, replaced)
 
 
-LAGRANGE = derive_torques()
-
-
 @given(angles, angles, speeds, speeds, speeds, speeds)
 def test_equations_of_motion_match_lagrange_of_the_energies(q1, q2, dq1, dq2, ddq1, ddq2):
     arm, t, dq = ARM.build(), turn(Joints(q1, q2)), Joints(dq1, dq2)
@@ -60,7 +59,7 @@ def test_equations_of_motion_match_lagrange_of_the_energies(q1, q2, dq1, dq2, dd
         M.m11 * ddq1 + M.m12 * ddq2 + bias.joint1,
         M.m12 * ddq1 + M.m22 * ddq2 + bias.joint2,
     )
-    assert torque == pytest.approx(LAGRANGE(ddq1, ddq2, dq1, dq2, q1, q2), abs=1e-11)
+    assert torque == pytest.approx(derive_torques()(ddq1, ddq2, dq1, dq2, q1, q2), abs=1e-11)
     solved = compute_arm_acceleration(arm, t, dq, Joints(*torque))
     assert solved == pytest.approx((ddq1, ddq2), abs=1e-10)
 
