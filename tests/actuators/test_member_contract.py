@@ -18,6 +18,7 @@ from svsa.runs.experiment import build_actuator_experiment
 from tests.actuators.members import NAMES, STIFFNESS, follow
 from tests.actuators.own_actuator import install_own_actuator
 from tests.docs.pages import ROOT
+from tests.exhaustive import exhaust
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -42,13 +43,14 @@ def test_ndobc_holds_the_default_load_of_an_actuator_at_its_default_stiffness(na
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("law", list_law_names())
+@pytest.mark.parametrize("law", exhaust(list_law_names(), ["fl", "lqi", "ndobc"]))
 def test_every_law_runs_on_another_actuator(law):
     result = follow("leaf_spring", law, 20.0, 0.0, 0.05, duration_s=0.5)
     assert result.fault is None
     assert np.isfinite(result.samples[:, CHANNEL_INDEX["torque1_nm"]]).all()
 
 
+@pytest.mark.exhaustive
 def test_batch_runs_equal_single_runs():
     runs = [follow("qbmove", "ndobc", sigma, 0.0, 0.1, duration_s=0.3) for sigma in (3.0, 5.0)]
     found = RunSet([run.configuration for run in runs]).run("ndobc", 0.3)

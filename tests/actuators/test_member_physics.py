@@ -35,6 +35,7 @@ WITH_STIFFNESS_MOTOR = [name for name in NAMES if get_mechanism(name).has_stiffn
 UNLOADED = ExternalLoad(0.0, 0.0, 0.0, 0.0, 0.0)
 
 
+@pytest.mark.exhaustive
 @settings(max_examples=200)
 @given(springs())
 def test_hand_written_derivatives_of_the_svsa_match_its_energy(drawn):
@@ -107,6 +108,7 @@ def compute_total_energy(mechanism, actuator, x):
     return float(elastic + 0.5 * moving)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", NAMES)
 @settings(max_examples=40)
 @given(data=st.data())

@@ -57,6 +57,7 @@ def test_recorded_session_is_resimulated_bit_for_bit(law: str, tmp_path: Path) -
     assert np.any(opened.samples[:, U1] != 0.0)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("law", exhaust(list_law_names(), SHOWN_IN_BATCHES))
 def test_law_in_a_batch_ends_as_in_a_live_session(law: str) -> None:
     """In a batch with a run of another plant stiffness, which differs."""

@@ -139,14 +139,15 @@ def test_law_receives_the_measurement_of_the_tick_with_quantization_and_noise(ef
     assert is_another == (effects != "ideal"), "x̂ itself between exact sensors"
 
 
+@pytest.mark.exhaustive
 @pytest.mark.parametrize(
     ("law", "effects"),
     [
-        pytest.param("stored", "ideal", marks=pytest.mark.exhaustive),
-        pytest.param("stored", "rig", marks=pytest.mark.exhaustive),
+        ("stored", "ideal"),
+        ("stored", "rig"),
         ("stored_by_branches", "rig"),
-        pytest.param("stored", "every", marks=pytest.mark.exhaustive),
-        pytest.param("stored_by_branches", "every", marks=pytest.mark.exhaustive),
+        ("stored", "every"),
+        ("stored_by_branches", "every"),
     ],
 )
 def test_law_in_a_batch_receives_the_same_as_alone(law, effects):
@@ -177,6 +178,7 @@ def test_law_in_a_separate_process_receives_the_same():
     np.testing.assert_array_equal(there.samples, here.samples)
 
 
+@pytest.mark.long
 def test_law_on_a_bench_receives_the_measurement_also_after_missed_ticks():
     run = Run(build())
     call = build_call(run.laws[0], run.lanes[0].memory)

@@ -34,7 +34,7 @@ def moteus() -> Iterator[RunningEmulator]:
         yield running
 
 
-@pytest.fixture(params=exhaust(PLANTS, PLANTS[:3]))
+@pytest.fixture(params=exhaust(PLANTS, PLANTS[:2]))
 def stand(
     request: pytest.FixtureRequest, emulator: RunningEmulator, moteus: RunningEmulator
 ) -> Iterator[Stand]:

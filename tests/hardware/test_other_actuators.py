@@ -81,7 +81,7 @@ def read_settled(samples: np.ndarray, name: str) -> np.ndarray:
     return samples[SETTLED, CHANNEL_INDEX[name]]
 
 
-@pytest.mark.parametrize("name", exhaust(OTHERS, ["qbmove", "maccepa"]))
+@pytest.mark.parametrize("name", exhaust(OTHERS, ["qbmove"]))
 def test_ndobc_holds_the_load_on_the_emulated_bench(name: str, tmp_path: Path) -> None:
     """1.5 s after the load ŵ is the load, and the error is less than half of that of FL."""
     compensated, plain = (run(tmp_path, name, law) for law in ("ndobc", "fl"))

@@ -24,12 +24,13 @@ main()
 """
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("encoding", "expected"),
     [
         ("ascii", "sigma at phi = 0 [N*m/rad]"),
-        ("cp1252", "sigma at phi = 0 [N·m/rad]"),
-        ("utf-8", "σ at φ = 0 [N·m/rad]"),
+        pytest.param("cp1252", "sigma at phi = 0 [N·m/rad]", marks=pytest.mark.exhaustive),
+        pytest.param("utf-8", "σ at φ = 0 [N·m/rad]", marks=pytest.mark.exhaustive),
     ],
 )
 def test_help_and_tables_are_printed_in_any_encoding(encoding: str, expected: str) -> None:

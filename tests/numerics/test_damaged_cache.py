@@ -16,6 +16,7 @@ from svsa.actuators import energy
 from svsa.actuators.installed import get_mechanism
 from svsa.numerics import code_cache
 from svsa.numerics.code_cache import SharedCache, choose_root, open_folder
+from tests.exhaustive import exhaust
 
 MODULE, FINGERPRINT = "svsa.numerics.trigonometry", f"{7:016x}"
 TYPES = (numba.float64,)
@@ -203,7 +204,7 @@ def test_home_in_the_path_of_the_cache_is_expanded(
 
 
 @pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() != 0, reason="only root can do it")
-@pytest.mark.parametrize("home", ["", "/proc/none", "{forbidden}"])
+@pytest.mark.parametrize("home", exhaust(["", "/proc/none", "{forbidden}"], [""]))
 def test_user_without_name_or_home_stores_code_among_temporary_files(
     tmp_path: Path, home: str
 ) -> None:

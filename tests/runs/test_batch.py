@@ -17,9 +17,10 @@ from svsa.runs.run import Run
 from svsa.simulation.loop.batch import Batch
 from svsa.simulation.loop.tally import SUMMARY
 from svsa.simulation.reference.transition import build_stack
-from tests.exhaustive import exhaust
 from tests.runs.session.scripts import actuators, gains, loads, observers, positions, stiffnesses
 from tests.runs.session.sessions import EVERY_EFFECT
+
+pytestmark = pytest.mark.long
 
 TICKS, BEGIN = 400, 150
 LOADS = (
@@ -118,6 +119,7 @@ def test_every_run_equals_the_single_run_with_any_parameters_effects_and_seed(dr
     compare([first, *(build("ndobc", loads=LOADS, **one) for one in drawn)])
 
 
+@pytest.mark.exhaustive
 def test_law_keeps_its_memory_in_each_run() -> None:
     """Also without effects, with an incomplete last group."""
     design = svsa.load_prototype()
@@ -163,6 +165,7 @@ def test_common_values_of_runs_are_stored_once() -> None:
     assert summaries["q"][0] == summaries["q"][1] == summaries["q"][3] != summaries["q"][2]
 
 
+@pytest.mark.exhaustive
 def test_runs_with_other_references_are_returned_in_their_order() -> None:
     angles = (0.1, -0.2, 0.1, 0.3)
     laws = ("fl_integral", "ndobc", "fl_integral", "fl_integral")
@@ -201,7 +204,8 @@ def test_values_common_to_all_lanes_are_rejected_if_they_differ() -> None:
         build_run_batch(mixed)
 
 
-@pytest.mark.parametrize("law", exhaust(["ndobc_w", "lqi"], ["ndobc_w"]))
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("law", ["ndobc_w", "lqi"])
 def test_laws_with_tuples_and_records_in_their_memory_run_in_a_batch(law: str) -> None:
     """Each equals the single run, on the rig, where a motor saturates."""
     design = svsa.load_prototype()

@@ -87,6 +87,7 @@ def test_reading_client_is_kept(attacked: Lab) -> None:
             stream.recv(timeout=LONGEST_S)
 
 
+@pytest.mark.exhaustive
 def test_incomplete_request_times_out(attacked: Lab) -> None:
     with unharmed(attacked):
         ended, answered_s = send_halves(attacked, 100)

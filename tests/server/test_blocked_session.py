@@ -47,6 +47,7 @@ def end_blocked(lab: Lab, number: signal.Signals) -> int:
     return lab.process.wait(END_TIMEOUT_S)
 
 
+@pytest.mark.exhaustive
 def test_every_request_is_answered_while_a_session_blocks() -> None:
     with run_lab(program=PROGRAM) as lab, connect(lab.stream_url, proxy=None) as stream:
         with blocked(lab) as answers:

@@ -34,6 +34,7 @@ class Loaded(HTMLParser):
         self.inline = self.inline or (tag == "script" and "src" not in dict(attrs))
 
 
+@pytest.mark.exhaustive
 def test_lab_answers_while_its_schema_is_built(monkeypatch: pytest.MonkeyPatch) -> None:
     """The schema takes 1 s; the control loops of the sessions use the same event loop."""
     build, begun, answered = openapi._build_schema, threading.Event(), threading.Event()

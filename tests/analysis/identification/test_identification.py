@@ -28,6 +28,8 @@ from svsa.simulation.plant.effects.noise import SensorNoise
 
 from .excited_run import BENCH, DESIGN, build_configuration, build_run, get, play
 
+pytestmark = pytest.mark.long
+
 PERIOD_S, LAG_S = 0.001, CurrentLag().time_constant_s
 PULSE = svsa.PulseLoad(torque_nm=(0.5, 0.0, 0.0), duration_s=0.1, start_s=2.0)
 PUSH = svsa.ConstantLoad(torque_nm=(0.5, 0.0, 0.0))
@@ -76,7 +78,6 @@ def contains(estimate, true):
     return estimate.low <= true <= estimate.high
 
 
-@pytest.mark.long
 def test_identifies_table_1_from_a_bench_record(found):
     for name in ACTUATOR:
         true = getattr(DESIGN.actuator, name)
@@ -88,7 +89,6 @@ def test_identifies_table_1_from_a_bench_record(found):
     assert (found.used_s, found.loaded_s, found.dropped_s) == (32.0, 0.0, 0.0)
 
 
-@pytest.mark.long
 def test_identifies_friction_and_torque_delay(found):
     friction = Friction()
     for name in ("coulomb1_nm", "coulomb2_nm", "static_ratio", "stribeck_rad_per_s"):
@@ -97,7 +97,6 @@ def test_identifies_friction_and_torque_delay(found):
     assert abs(found.estimates["link_gravity_moment_nm"].value) < 1e-3
 
 
-@pytest.mark.long
 @pytest.mark.exhaustive
 @pytest.mark.parametrize("seed", [0, 1])
 def test_confidence_intervals_have_their_coverage(seed):
@@ -126,7 +125,6 @@ def test_undetermined_parameters_give_no_design(found):
 
 
 @pytest.mark.exhaustive
-@pytest.mark.long
 def test_motor_that_did_not_move_is_not_determined():
     # Friction hides its inertia and damping: no file with a guess must be written.
     move = svsa.SinePosition(amplitude_rad=0.5, frequency_hz=1.0)
@@ -138,7 +136,6 @@ def test_motor_that_did_not_move_is_not_determined():
 
 
 @pytest.mark.exhaustive
-@pytest.mark.long
 def test_unannounced_load_is_rejected(excited):
     configuration, _ = excited
     loaded, _ = play(configuration.changed(loads=(PUSH.changed(start_s=4.0),)), None, 7.0)
@@ -231,7 +228,6 @@ def test_delayed_torque_lies_between_two_samples():
     assert compute_shifted_torque(torques, 0, 3.0, 3.0) == (0.0, 0.0)
 
 
-@pytest.mark.long
 def test_command_writes_a_readable_design(excited, found, tmp_path, monkeypatch, capsys):
     configuration, samples = excited
     record = build_run(configuration, samples[:10])

@@ -14,6 +14,8 @@ from svsa.evaluation.falsifier.file import (
 )
 from svsa.evaluation.falsifier.measure import run_scenario
 
+pytestmark = pytest.mark.long
+
 NAME = "impulse-ndobc"
 
 

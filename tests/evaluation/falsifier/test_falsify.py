@@ -18,6 +18,8 @@ from svsa.evaluation.statistics import estimate_share
 from svsa.simulation.plant.loads.pulse import PulseLoad
 from tests.evaluation.falsifier.weak_law import LOADED_NM, LONGEST_S, SHORTEST_S, install
 
+pytestmark = pytest.mark.long
+
 PULSE = {"kind": "pulse", "torque_nm": 1.5, "start_s": [0.2, 0.8], "duration_s": [0.02, 1.0]}
 STEP = {"kind": "step", "torque_nm": 0.4, "start_s": [0.2, 0.8], "bodies": ["link", "motor1"]}
 INERTIA = {"path": "actuator.link_inertia_kg_m2", "kind": "uniform", "relative": True}
@@ -40,7 +42,6 @@ def build_adversary(**changes):
     return Adversary(**(given | changes))
 
 
-@pytest.mark.long
 def test_planted_weakness_is_found_and_shrunk():
     adversary = build_adversary()
     found = falsify(adversary, runs=4000)
@@ -66,6 +67,7 @@ def test_planted_weakness_is_found_and_shrunk():
     assert (alone.fault.code, alone.fault.time_s) == (weak.fault, pytest.approx(weak.fault_s))
 
 
+@pytest.mark.exhaustive
 def test_each_reported_scenario_reproduces_its_cost():
     adversary = build_adversary(cost="peak", law="fl")
     reported = []

@@ -17,6 +17,8 @@ from svsa.evaluation.falsifier.measure import measure_attacks
 from tests.evaluation.falsifier.test_scenario_files import GOOD
 from tests.evaluation.falsifier.weak_law import install
 
+pytestmark = pytest.mark.long
+
 
 @pytest.fixture(autouse=True)
 def weak(monkeypatch, tmp_path):
@@ -92,6 +94,7 @@ def test_error_of_a_law_argument_does_not_mention_the_file(tmp_path):
         search("--law", "missing")
 
 
+@pytest.mark.exhaustive
 def test_result_of_another_search_is_not_overwritten(tmp_path):
     (tmp_path / "pulse.toml").write_text(GOOD)
     search("--law", "fl", "--output", "one.toml", "--seed", "1")

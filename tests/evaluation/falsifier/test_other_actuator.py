@@ -52,6 +52,7 @@ def test_search_on_qbmove_returns_a_pulse_and_a_scenario_of_qbmove():
     assert compensated.metrics[peak] < plain.metrics[peak]
 
 
+@pytest.mark.exhaustive
 def test_sample_without_the_required_stiffness_range_is_rejected_and_the_search_continues():
     """With a tenth less of its rate, qbmove reaches 10 of the 15 N·m/rad of its limits."""
     rate = {"path": "actuator.rate_per_rad", "kind": "uniform", "relative": True}

@@ -85,6 +85,7 @@ def test_median_that_is_a_fault_is_named():
     assert format_median(Median(value=0.25, low=0.1, high=2.0)) == "0.25 (0.1–2)"
 
 
+@pytest.mark.exhaustive
 def test_command_adds_rows_to_its_result_file(tmp_path):
     file = tmp_path / "arm.json"
     command = ["ranking", "arm", "fl+ff", *OPTIONS, "--save", str(file), "--json"]

@@ -54,6 +54,7 @@ def test_scenario_is_found_by_its_name():
             find_scenario(name)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("law", ["fl", "ndobc"])
 def test_opposite_sign_half_a_period_later_mirrors_a_run(law):
     """The ideal loop is odd in q under a load on the link; the phase changes the result."""
@@ -148,7 +149,7 @@ def test_published_results_are_complete():
         assert (row.tuning is None) == (row.variant != "tuned")
 
 
-@pytest.mark.long
+@pytest.mark.exhaustive
 def test_published_trials_are_reproduced():
     """The first block of one row: after a change of a law or the protocol, run `make ranking`."""
     results, entry = load_published(), build_entry(DECLARED)

@@ -52,6 +52,7 @@ def test_row_has_the_plant_model_limits_and_settings_of_its_actuator():
         assert (one.nominal, one.limits) == (found.nominal, found.limits)
 
 
+@pytest.mark.exhaustive
 def test_rows_equal_single_runs_and_are_summarized_by_actuator(tmp_path):
     stored = keep_study("two", Study(**GIVEN), tmp_path)
     assert run_study(stored, 0)

@@ -52,6 +52,7 @@ def test_example_study_cannot_be_deleted(monkeypatch, tmp_path):
     assert list_studies() == []
 
 
+@pytest.mark.exhaustive
 def test_user_study_replaces_the_example_of_the_same_name(monkeypatch, tmp_path):
     monkeypatch.setenv("SVSA_DATA", str(tmp_path))
     own = keep_study(EXAMPLE, read_study("load", runs=2)[1], owner="ada")

@@ -37,6 +37,7 @@ def test_table_does_not_depend_on_parts_and_workers(tmp_path, how):
     assert {row["fault"] for row in rows} == {None, "deflection_limit"}
 
 
+@pytest.mark.long
 def test_numbers_are_stored_plainly_and_names_in_a_dictionary(tmp_path):
     """A dictionary of unique numbers would cost three times the rest of the writing."""
     stored = run_whole(tmp_path)
@@ -127,6 +128,7 @@ def test_study_has_one_process_at_a_time(tmp_path):
         run_study(stored, 0)
 
 
+@pytest.mark.long
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")
 @pytest.mark.parametrize("how", exhaust([signal.SIGINT, signal.SIGKILL], [signal.SIGKILL]))
 def test_ended_study_continues_to_the_same_table(tmp_path, how):

@@ -64,6 +64,7 @@ def test_success_is_that_of_the_table(data):
     assert "fault" in run("show", "one")
 
 
+@pytest.mark.long
 def test_study_with_chosen_metrics_stores_shows_replays_and_plots_them(data, tmp_path):
     kept = ("limit_share", "peak_torque2_nm", "effort_n2m2_s")
     few = build_study(metrics=kept, runs=8, success={"rms_position_error_rad": 0.2})
@@ -182,6 +183,7 @@ def test_outcome_is_an_option_of_sensitivity_studies_only(data):
             run("show", "one", "--outcome", outcome)
 
 
+@pytest.mark.long
 def test_pictures_show_the_available_results(data, tmp_path):
     run("show", "one", "--pictures", str(tmp_path))
     names = sorted(path.name for path in tmp_path.iterdir())

@@ -150,6 +150,7 @@ def test_sobol_indices_match_those_of_ishigamis_function():
     assert unfinished.samples == 512
 
 
+@pytest.mark.exhaustive
 def test_sobol_intervals_are_upper_bounds():
     """Over scrambles of the sequence the indices vary less than their intervals state."""
     found = [estimate_ishigami(seed, 512)[2].first_order.values() for seed in range(10)]

@@ -75,6 +75,7 @@ def test_run_of_a_trial_has_its_controller_and_both_joints():
     assert plain["position_peak"][0] == pytest.approx(peaks, rel=1e-12)
 
 
+@pytest.mark.exhaustive
 def test_candidate_that_is_loud_or_faults_at_rest_is_not_run():
     controller = ArmController("ndobc")
     problem = build_arm_problem(controller)

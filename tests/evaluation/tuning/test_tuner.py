@@ -25,6 +25,8 @@ from svsa.evaluation.tuning.tuned_law import TunedLaw, build_tuned_law, load_tun
 from svsa.evaluation.tuning.tuner import tune
 from svsa.runs.design_file import parse_design
 
+pytestmark = pytest.mark.long
+
 LAW = "fl_integral"
 SHORT = {"trials": 2, "validation": 2}
 
@@ -112,6 +114,7 @@ def test_poor_gains_are_improved_in_real_runs_below_the_noise_limit():
     assert judge(TrialSet(build_training(0, 8)), LAW, tuned.design).trials == 8
 
 
+@pytest.mark.exhaustive
 def test_cost_and_noise_limit_are_as_defined():
     """NDOBC with the declared gains is at the limit; fast poles are above it and do not run."""
     trials, design = TrialSet(build_training(0, 8)), svsa.load_prototype()

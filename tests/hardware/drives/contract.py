@@ -262,6 +262,7 @@ class DriveContract:
         with pytest.raises(ParameterError, match=r"motor2\..*different from motor1's"):
             read_bench(path)
 
+    @pytest.mark.exhaustive
     def test_supervisor_stops_the_drive_if_the_loop_is_silent(self, rig: Rig, path: Path) -> None:
         """A third process with its own bus: only its stop ends the mode."""
         beats = Heartbeats.create()

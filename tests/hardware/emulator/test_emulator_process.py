@@ -183,6 +183,7 @@ def test_invalid_request_on_the_control_port_is_answered_with_the_reason(emulato
     assert read_time_us(emulator) == begin
 
 
+@pytest.mark.exhaustive
 def test_time_against_the_clock_advances_automatically():
     with start_emulator(lockstep=False) as running:
         deadline = time.monotonic() + HANG_S

@@ -44,6 +44,7 @@ CASES = {
 }
 
 
+@pytest.mark.long
 @given(**CASES, damping=st.sampled_from([0.0, 5.0, 20.0]))
 def test_wall_never_pulls_and_never_acts_before_contact(direction, sigma, wall_n_per_m, damping):
     result = collide(direction, sigma, wall_n_per_m, damping)

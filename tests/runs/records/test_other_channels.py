@@ -53,6 +53,7 @@ def verify(folder: Path) -> tuple[str, ...]:
     return compared.not_compared
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", NAMES)
 def test_missing_channel_is_not_a_number(name: str, tmp_path: Path) -> None:
     folder = rewrite(name, tmp_path / "run-1", missing=MISSING)
@@ -67,6 +68,7 @@ def test_missing_channel_is_not_a_number(name: str, tmp_path: Path) -> None:
     assert verify(folder) == (MISSING,)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", NAMES)
 def test_unknown_channel_is_ignored(name: str, tmp_path: Path) -> None:
     folder = rewrite(name, tmp_path / "run-1", added=ADDED)
@@ -121,6 +123,7 @@ def test_record_with_other_channels_is_exported(
     assert (tmp_path / f"run.{kind}").stat().st_size > 1000
 
 
+@pytest.mark.long
 def test_lab_plots_measures_and_verifies_an_older_record(tmp_path: Path) -> None:
     name = open_record(RECORDS / "comparisons").header.run_id
     rewrite("comparisons", tmp_path / "runs" / name, missing=MISSING)

@@ -62,6 +62,7 @@ def describe(joints):
     </mujoco>"""
 
 
+@pytest.mark.exhaustive
 def test_half_a_second_of_the_arm_is_that_of_mujoco_to_1e_6():
     blocks, inputs = build_arm(ARM, tip_loads=(TipForce(force_n=FORCE),), actuator="sea")
     torques = Torque(TORQUE[0], 0.0), Torque(TORQUE[1], 0.0)

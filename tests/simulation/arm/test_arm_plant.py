@@ -13,6 +13,7 @@ from svsa.simulation.plant.loads.tip import TipForce, TipImpulse, TipMass, Wall
 from .free_arm import AT_REST, NO_LOAD, START, build_arm, compute_energy, move
 
 
+@pytest.mark.exhaustive
 def test_energy_is_kept_without_damping_and_its_drift_is_of_fourth_order():
     periods, drifts = np.array([0.004, 0.002, 0.001, 0.0005]), []
     for period in periods:
@@ -24,6 +25,7 @@ def test_energy_is_kept_without_damping_and_its_drift_is_of_fourth_order():
     assert np.polyfit(np.log(periods), np.log(drifts), 1)[0] > 3.8, drifts
 
 
+@pytest.mark.long
 def test_damping_loses_the_power_of_the_velocities():
     """Ė = −Σ (D q̇² + D1 θ̇1² + D2 θ̇2²)."""
     blocks, inputs = build_arm(period=1e-4)

@@ -43,6 +43,7 @@ def configurations():
     return [build_configuration(one, seed=i, **changes) for i, one in enumerate(loads)]
 
 
+@pytest.mark.exhaustive
 def test_each_run_of_a_group_equals_a_single_run(configurations):
     """The middle one leaves the domain of the model, and its controller is not called
     afterwards.
@@ -75,6 +76,7 @@ def test_each_run_of_a_group_equals_a_single_run(configurations):
     assert asked[-1][1:] == (True, False, True)
 
 
+@pytest.mark.exhaustive
 def test_exception_of_a_controller_ends_the_group_and_is_raised(configurations):
     calls = []
 

@@ -7,6 +7,7 @@ import svsa
 from svsa.runs.batch import run_configurations
 from svsa.simulation.loop import slices
 from svsa.simulation.loop.slices import cut
+from tests.exhaustive import exhaust
 from tests.runs.session.sessions import PULSE, build_configuration
 
 TICKS = 600
@@ -70,7 +71,7 @@ def run_whole_and_sliced(monkeypatch, run):
     return whole, sliced
 
 
-@pytest.mark.parametrize("law", ["ndobc", "ndobc_w", "ilc"])
+@pytest.mark.parametrize("law", exhaust(["ndobc", "ndobc_w", "ilc"], ["ndobc"]))
 def test_run_in_slices_has_the_bits_of_one_call(monkeypatch, law):
     configuration = build_configuration(PULSE, law=law, effects=svsa.RIG, seed=3)
     whole, sliced = run_whole_and_sliced(
@@ -79,7 +80,8 @@ def test_run_in_slices_has_the_bits_of_one_call(monkeypatch, law):
     assert whole.samples.tobytes() == sliced.samples.tobytes()
 
 
-@pytest.mark.parametrize("law", ["ndobc", "ndobc_w", "ilc"])
+@pytest.mark.long
+@pytest.mark.parametrize("law", exhaust(["ndobc", "ndobc_w", "ilc"], ["ndobc"]))
 def test_batch_in_slices_has_the_bits_of_one_call(monkeypatch, law):
     """Also for runs that end in a fault, some of them within a group of eight."""
     configurations = [

@@ -16,6 +16,8 @@ from svsa.teaching.isolation.refusal import NotIsolatedError
 from tests.teaching.course.runs import find_exercise
 from tests.teaching.isolation.test_attacks import isolation  # noqa: F401
 
+pytestmark = pytest.mark.long
+
 FL, OWN = "feedback-linearization", "own-law"
 BROKEN = "def law(*given):\n    return spring\n"
 

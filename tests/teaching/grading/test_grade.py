@@ -34,6 +34,8 @@ from tests.teaching.grading.submissions import (
 )
 from tests.teaching.isolation.test_attacks import isolation  # noqa: F401
 
+pytestmark = pytest.mark.long
+
 OWN_LAW = parse_exercise(LAW_EXERCISE, "own-law")
 SECRET = bytes(range(32))
 

@@ -10,6 +10,8 @@ from svsa.teaching.grading.law_runs import run_law
 from svsa.teaching.isolation.confinement import leave_open
 from tests.teaching.grading.submissions import GOOD
 
+pytestmark = pytest.mark.long
+
 SEED = 11
 
 COUNTS = b"""

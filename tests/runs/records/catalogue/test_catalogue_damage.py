@@ -14,6 +14,7 @@ import pytest
 from svsa.runs.records.catalogue.entry import CatalogueError, UnknownRunError
 from svsa.runs.records.catalogue.runs import Catalogue
 from svsa.runs.records.header import HEADER_FILE, LARGEST_TEXT_BYTES, RecordError
+from tests.exhaustive import exhaust
 from tests.runs.records.records import add, list_ids
 
 RUNS = ["run-1", "run-2", "run-3"]
@@ -104,7 +105,7 @@ def test_damaged_catalogue_is_rebuilt_at_the_start(
     assert not any("\n" in message for message in caplog.messages)
 
 
-@pytest.mark.parametrize("ending", ["-wal", "-shm", "-journal"])
+@pytest.mark.parametrize("ending", exhaust(["-wal", "-shm", "-journal"], ["-wal"]))
 def test_damaged_log_does_not_prevent_the_start(data: Path, ending: str) -> None:
     shutil.copy(data / NAME, data / "intact.sqlite")
     keep = sqlite3.connect(data / NAME)
@@ -117,10 +118,8 @@ def test_damaged_log_does_not_prevent_the_start(data: Path, ending: str) -> None
     check_damages(data, path.name, range(FEW // 2))
 
 
-@pytest.mark.parametrize("seeds", [
-    range(FEW),
-    pytest.param(range(FEW, MANY // 3), marks=pytest.mark.exhaustive),
-], ids=["few", "many"])  # fmt: skip
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("seeds", [range(FEW), range(FEW, MANY // 3)], ids=["few", "many"])
 def test_damage_is_repaired_while_the_catalogue_is_used(data: Path, seeds: range) -> None:
     content = (data / NAME).read_bytes()
     catalogue = Catalogue(data)
@@ -247,7 +246,7 @@ def test_damaged_header_stops_no_other_run(data: Path, content: bytes) -> None:
     check_others(data, lambda path: path.write_bytes(content))
 
 
-@pytest.mark.parametrize("field", FIELDS)
+@pytest.mark.parametrize("field", exhaust(FIELDS, ["channels", "created", "tags"]))
 def test_invalid_field_stops_no_other_run(data: Path, field: str) -> None:
     header = json.loads((data / "runs" / "run-2" / HEADER_FILE).read_bytes())
     texts = [json.dumps(header | {field: value}) for value in VALUES]
