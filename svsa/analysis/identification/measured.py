@@ -1,7 +1,8 @@
 """Identification from any measurement: a recorded run, a simulated result, or a CSV file."""
 
+import re
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NoReturn
 
 import numpy as np
 
@@ -27,6 +28,7 @@ from svsa.inputs.checked import check_number
 from svsa.runs.configuration import Design
 from svsa.runs.experiment import build_experiment
 from svsa.runs.result.recorded import find_record
+from svsa.simulation.reference.series_csv import CSV_FORMAT
 
 if TYPE_CHECKING:
     from svsa.runs.result.result import Result
@@ -37,6 +39,7 @@ TORQUES = ("torque1_nm", "torque2_nm")
 UNITS = {"_rad": 1.0, "_deg": np.pi / 180.0}
 LONGEST_PERIOD_S = 0.01
 JITTER = 0.01
+NUMBER = r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?"
 
 
 def identify(
@@ -119,27 +122,35 @@ def _read_table(path: Path) -> dict[str, np.ndarray]:
     try:
         table = pa.csv.read_csv(path)
     except (OSError, pa.ArrowInvalid) as error:
-        bound = f"a readable CSV file with a header ({error})"
+        bound = f"a readable CSV file with a header, {CSV_FORMAT} ({error})"
         raise ParameterError(Violation("file", str(path), "", bound)) from None
     wanted = (TIME, *(f"{name}_rad" for name in ANGLES), *TORQUES)
     for name in (TIME, *TORQUES):
         if name not in table.column_names:
-            bound = "columns " + ", ".join(wanted)
+            bound = f"columns {', '.join(wanted)}, {CSV_FORMAT}"
             found = ", ".join(table.column_names)
             raise ParameterError(Violation("the head", found, "", bound), file=str(path))
     columns = {}
     for name in table.column_names:
         try:
-            values = table[name].cast(pa.float64()).to_numpy()
-        except pa.ArrowInvalid:
-            continue
-        columns[name] = values
+            columns[name] = table[name].cast(pa.float64()).to_numpy()
+        except (pa.ArrowInvalid, pa.ArrowNotImplementedError):
+            if name in (TIME, *TORQUES) or name.rpartition("_")[0] in ANGLES:
+                _reject_text(name, table[name], path)
     for name, values in columns.items():
         if not np.isfinite(values).all():
             row = int(np.argmin(np.isfinite(values))) + 2
             bound = "a number in every row"
             raise ParameterError(Violation(f"{name} in row {row}", None, "", bound), file=str(path))
     return columns
+
+
+def _reject_text(name: str, cells: "pa.ChunkedArray", path: Path) -> NoReturn:
+    """Report the first cell that is not a number."""
+    texts = enumerate(map(str, cells.to_pylist()))
+    row, text = next((row, text) for row, text in texts if not re.fullmatch(NUMBER, text))
+    bound = f"a number in every row, {CSV_FORMAT}"
+    raise ParameterError(Violation(f"{name} in row {row + 2}", text, "", bound), file=str(path))
 
 
 def _read_angle(table: dict[str, np.ndarray], name: str, path: Path) -> np.ndarray:

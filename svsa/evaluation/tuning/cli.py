@@ -174,7 +174,9 @@ def _read_held(text: str) -> tuple[str, float]:
             return name.strip(), float(value)
     except ValueError:
         pass
-    raise ParameterError(Violation("hold", text, "", "NAME=VALUE, as estimate_share=0"))
+    raise ParameterError(
+        Violation("hold", text, "", "NAME=VALUE with a decimal point, as estimate_share=0.5")
+    )
 
 
 def _build_value_table(tuned: "Tuned") -> Table:

@@ -34,9 +34,12 @@ class Replay:
         """
         try:
             rows = np.loadtxt(self._path, delimiter=",", skiprows=1, ndmin=2)
-            self._times, self._counts = rows[:, 0], rows[:, 1].astype(np.int64)
-        except (OSError, ValueError, IndexError) as error:
+            self._times, counts = rows.T
+            self._counts = counts.astype(np.int64)
+        except (OSError, ValueError) as error:
             raise EncoderError(f"{self._path} cannot be replayed: {error}.") from None
+        if np.any(self._counts != counts):
+            raise EncoderError(f"{self._path} cannot be replayed: its counts must be integers.")
         if not len(self._times) or np.any(np.diff(self._times) <= 0.0):
             raise EncoderError(f"{self._path} cannot be replayed: its times must increase.")
         self._start = None

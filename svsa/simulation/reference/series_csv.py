@@ -22,6 +22,8 @@ from svsa.simulation.reference.kinds.series import (
 from svsa.simulation.reference.shape import FASTEST_POSITION, FASTEST_STIFFNESS, FULL_TURN_RAD
 
 TIME = "time_s"
+CSV_FORMAT = "cells separated by a comma, numbers with a decimal point"
+"""As spreadsheets write it with English number formats."""
 
 
 class Column(NamedTuple):
@@ -85,7 +87,7 @@ def parse_series(text: str) -> SeriesPosition | SeriesStiffness:
     head = [cell.strip() for cell in rows[0][1]] if rows else []
     names = [name for name in head if name in COLUMNS]
     if len(head) != 2 or TIME not in head or len(names) != 1:
-        bound = f"{TIME} and one of " + ", ".join(COLUMNS)
+        bound = f"{TIME} and one of {', '.join(COLUMNS)}; {CSV_FORMAT}"
         raise ParameterError(Violation("the head of the CSV", ",".join(head), "", bound))
     name, count = names[0], len(rows) - 1
     if not 2 <= count <= MAX_ROWS:
@@ -124,11 +126,12 @@ def _build(points: Points) -> SeriesPosition | SeriesStiffness:
 
 def _read_cell(row: list[str], index: int, place: str, unit: str) -> float:
     if len(row) != 2:
-        raise ParameterError(Violation(place, ",".join(row), "", "one of two cells"))
+        raise ParameterError(Violation(place, ",".join(row), "", f"one of two cells; {CSV_FORMAT}"))
     try:
-        value = float(row[index])
+        value = math.nan if "_" in row[index] else float(row[index])
     except ValueError:
         value = math.nan
     if not math.isfinite(value):
-        raise ParameterError(Violation(place, row[index].strip(), unit, "a finite number"))
+        bound = "a finite number with a decimal point"
+        raise ParameterError(Violation(place, row[index].strip(), unit, bound))
     return value

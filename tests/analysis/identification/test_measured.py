@@ -59,6 +59,16 @@ def test_invalid_file_error_names_column_row_and_bound(samples, tmp_path):
         svsa.identify(tmp_path / "head.csv", stiffness_nm_per_rad=30.0)
     with pytest.raises(ParameterError, match="readable CSV"):
         svsa.identify(tmp_path / "none.csv", stiffness_nm_per_rad=30.0)
+    for column in (0, 1, 5):
+        rows = [line.split(",") for line in short.read_text().splitlines()]
+        rows[4][column] = '"0,5"'
+        (tmp_path / "comma.csv").write_text("\n".join(map(",".join, rows)))
+        pattern = f"{rows[0][column]} in row 5 is '0,5': .*decimal point"
+        with pytest.raises(ParameterError, match=pattern):
+            svsa.identify(tmp_path / "comma.csv", stiffness_nm_per_rad=30.0)
+    (tmp_path / "semicolon.csv").write_text(short.read_text().replace(",", ";").replace(".", ","))
+    with pytest.raises(ParameterError, match="separated by a comma"):
+        svsa.identify(tmp_path / "semicolon.csv", stiffness_nm_per_rad=30.0)
     lines = short.read_text().splitlines()
     lines[9] = lines[9].rpartition(",")[0] + ","
     (tmp_path / "empty.csv").write_text("\n".join(lines))

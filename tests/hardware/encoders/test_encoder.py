@@ -90,7 +90,11 @@ def test_recorded_file_is_replayed_in_its_own_time(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "text", [None, "", "time_s,counts\n", "a,b\n0,x\n", "t,c\n1,2\n1,3\n", "t,c\n1\n"]
+    "text",
+    [
+        *(None, "", "time_s,counts\n", "a,b\n0,x\n", "t,c\n1,2\n1,3\n", "t,c\n1\n"),
+        *("t,c\n0,0,5\n1,0,6\n", "t;c\n0;5\n0,1;6\n", "t,c\n0,5.5\n1,6\n"),
+    ],
 )
 @pytest.mark.filterwarnings("ignore:.*input contained no data")
 def test_unreadable_file_is_an_error(tmp_path, text):

@@ -137,6 +137,13 @@ BAD = {
     "too many": (write([0.0] * (MAX_ROWS + 1)), ["2001", "from 2 to 2000"]),
     "no number": (write([0.0, "fast", 1.0]), ["position_rad in row 3 is 'fast'", "finite"]),
     "NaN": (write([0.0, 1.0, "nan"]), ["position_rad in row 4 is 'nan'", "finite number"]),
+    "semicolons": ("time_s;position_deg\n0;0\n0,5;30", ["head", "separated by a comma"]),
+    "decimal commas": ("time_s,position_deg\n0,0\n0,5,30", ["row 3 is '0,5,30'", "decimal point"]),
+    "a quoted comma": (
+        'time_s,position_deg\n0,0\n1,"1,5"',
+        ["row 3 is '1,5'", "decimal point"],
+    ),
+    "digit groups": ("time_s,position_deg\n0,0\n1,1_0", ["row 3 is '1_0'", "decimal point"]),
     "a cell too many": ("time_s,position_rad\n0,1\n1,2,3", ["row 3", "two cells"]),
     "time goes back": (
         write([0.0, 0.1, 0.2], times=[0.0, 0.5, 0.4]),
