@@ -35,13 +35,16 @@ VALID = [
     ("7.25", "7.25"),
     ("\u0661\u0662\u066b\u0665", "12.5"),
     ("12,3456789", "12.3456789"),
+    ("\uff11\uff12\uff0e\uff15", "12.5"),
     (" 1e1 ", "10"),
 ]
 INVALID = [
     ("", "no number"),
     ("1,000", "can mean 1000 or 1.000"),
     ("1.234,5", "more than one separator"),
-    ("1 000", "a space"),
+    ("1 234,5", "a space"),
+    ("1,234.5", "more than one separator"),
+    ("1'234.5", "a space"),
     ("12,5,3", "more than one separator"),
     ("1e400", "too large"),
     ("0x10", "not a number"),
@@ -56,6 +59,7 @@ class Driver(NamedTuple):
     evaluate: Callable[[str], Any]
     press: Callable[[str], object]
     """A key by name, or text."""
+    paste: Callable[[str], object]
     turn_wheel: Callable[[int, int], object]
     """At a place of the page, up."""
     leave: Callable[[], object]
@@ -76,6 +80,9 @@ def driver(request: pytest.FixtureRequest, lab: Lab, still: None) -> Iterator[Dr
             yield Driver(
                 firefox.evaluate,
                 firefox.press,
+                lambda text: firefox.evaluate(
+                    f'document.execCommand("insertText", false, {json.dumps(text)})'
+                ),
                 firefox.turn_wheel,
                 # A headless Firefox has no focus, so that it sends no events of focus.
                 lambda: firefox.evaluate(f"{FIELD}.dispatchEvent(new FocusEvent('blur'))"),
@@ -87,6 +94,11 @@ def driver(request: pytest.FixtureRequest, lab: Lab, still: None) -> Iterator[Dr
     leave_3d_empty(context)
     page = context.new_page()
     page.goto(lab.url)
+    context.grant_permissions(["clipboard-read", "clipboard-write"])
+
+    def paste(text: str) -> None:
+        page.evaluate("(text) => navigator.clipboard.writeText(text)", text)
+        page.keyboard.press("Control+V")
 
     def press(key: str) -> None:
         (page.keyboard.press if len(key) > 1 and key.isascii() else page.keyboard.insert_text)(key)
@@ -95,7 +107,7 @@ def driver(request: pytest.FixtureRequest, lab: Lab, still: None) -> Iterator[Dr
         page.mouse.move(x, y)
         page.mouse.wheel(0, -100)
 
-    yield Driver(page.evaluate, press, turn_wheel, lambda: press("Tab"))
+    yield Driver(page.evaluate, press, paste, turn_wheel, lambda: press("Tab"))
     context.close()
 
 
@@ -111,12 +123,12 @@ def test_field_shows_what_the_lab_has(driver: Driver, lab: Lab) -> None:
 
     def paste(text: str) -> None:
         driver.evaluate(f"({FIELD}.focus(), {FIELD}.select())")
-        driver.evaluate(f'document.execCommand("insertText", false, {json.dumps(text)})')
+        driver.paste(text)
 
     def assert_taken(expected: str) -> None:
         wait_until(
             lambda: (
-                driver.evaluate(SHOWN)["value"] == expected
+                driver.evaluate(SHOWN)["value"] in (expected, f"{float(expected):.6g}")
                 and position_deg() == pytest.approx(float(expected), rel=1e-12)
             ),
             lambda: f"{driver.evaluate(SHOWN)}, expected {expected}; lab: {position_deg()}",
@@ -134,8 +146,9 @@ def test_field_shows_what_the_lab_has(driver: Driver, lab: Lab) -> None:
                 assert_taken(expected)
             lab.jump(2)  # At most 32 changes of a reference fade in at once.
     for text, reason in INVALID:
-        for finish in (lambda: driver.press("Enter"), driver.leave):
-            type_text(text)
+        for put, finish in ((type_text, lambda: driver.press("Enter")), (paste, driver.leave)):
+            type_text("7")
+            put(text)
             finish()
             shown = driver.evaluate(SHOWN)
             assert (shown["value"], shown["invalid"]) == (text, "true")
@@ -163,3 +176,24 @@ def test_field_shows_what_the_lab_has(driver: Driver, lab: Lab) -> None:
     driver.evaluate(f"{FIELD}.blur()")
     driver.turn_wheel(x, y)
     assert_taken("21")
+
+
+def test_field_without_focus_is_rounded_and_keeps_the_commanded_value(
+    driver: Driver, lab: Lab
+) -> None:
+    """A narrow field would cut digits off, also those before the decimal point."""
+    exact = {"kind": "constant", "position_rad": 0.5}
+    wait_until(lambda: driver.evaluate(f"!!({FIELD})"))
+    before = lab.client.put(lab.session + "/position", json=exact).raise_for_status().json()
+    wait_until(lambda: driver.evaluate(SHOWN)["value"] == "28.6479")
+    assert driver.evaluate(f"{FIELD}.scrollWidth <= {FIELD}.clientWidth")
+    driver.evaluate(f"({FIELD}.dispatchEvent(new FocusEvent('focus')), {FIELD}.focus())")
+    wait_until(lambda: driver.evaluate(SHOWN)["value"] == "28.6478897565")
+    driver.leave()
+    wait_until(lambda: driver.evaluate(SHOWN)["value"] == "28.6479")
+    driver.evaluate(f"{FIELD}.focus()")
+    driver.press("ArrowUp")
+    wait_until(lambda: lab.read()["revision"] != before["revision"])
+    moved = math.degrees(lab.read()["configuration"]["position"]["position_rad"])
+    assert moved == pytest.approx(29.6478897565, abs=1e-9), "one step, and no other change"
+    assert int(lab.read()["revision"].split(".")[-1]) == int(before["revision"].split(".")[-1]) + 1

@@ -6,6 +6,14 @@ import { text } from "../text/en";
 import { formatInput } from "../units";
 import { MathSymbol } from "./symbol";
 
+const EXACT_DIGITS = 12;
+/** As many as a narrow field shows completely. */
+const SHOWN_DIGITS = 6;
+
+/** Without the last decimals, for a field that is not edited. */
+const round = (value: number, digits: number): string =>
+  formatInput(value, Math.max(digits, String(Math.trunc(Math.abs(value))).length));
+
 const WHEEL_STEP_PX = 50;
 const LINE_PX = 33;
 const COUNTS: Readonly<Record<string, number>> = {
@@ -19,7 +27,7 @@ export interface NumberInputProps extends Demand {
   id?: string;
   /** The value in force, in the unit on screen; null: none yet. */
   value: number | null;
-  /** Significant digits shown. */
+  /** Significant digits while the field has no focus; an integer part has all of its digits. */
   digits?: number;
   /** Of an arrow key. */
   step?: number | undefined;
@@ -45,7 +53,7 @@ export interface NumberInputProps extends Demand {
  * force remains; Escape restores it.
  */
 export function NumberInput(props: NumberInputProps) {
-  const { value, digits = 12, step, describedBy, placeholder, disabled } = props;
+  const { value, digits = SHOWN_DIGITS, step, describedBy, placeholder, disabled } = props;
   const { unit, min, max, isInteger, onInput, onCommit, onEmpty } = props;
   const ownId = useId();
   const input = useRef<HTMLInputElement>(null);
@@ -58,8 +66,11 @@ export function NumberInput(props: NumberInputProps) {
   const line = useRef<HTMLParagraphElement>(null);
   const turned = useRef(0);
   const pending = useRef(0);
-  const held = value === null ? "" : formatInput(value, digits);
-  const shown = typed ?? held;
+  const [hasFocus, setFocus] = useState(false);
+  const held = value === null ? "" : formatInput(value, EXACT_DIGITS);
+  const current = typed ?? held;
+  const isRounded = typed === null && value !== null && !hasFocus;
+  const shown = isRounded ? round(value, digits) : current;
   const label = props.label ?? props["aria-label"] ?? text.numbers.number;
   const demand: Demand = { label, unit: unit ?? "", min, max, isInteger: isInteger ?? false };
 
@@ -103,10 +114,10 @@ export function NumberInput(props: NumberInputProps) {
     else setRefused(true);
   };
   const move = (count: number) => {
-    const reading = readNumber(shown, demand);
+    const reading = readNumber(current, demand);
     const next = stepNumber("value" in reading ? reading.value : (value ?? 0), count, demand, step);
-    type(formatInput(next, 12));
-    void commit(formatInput(next, 12));
+    type(formatInput(next, EXACT_DIGITS));
+    void commit(formatInput(next, EXACT_DIGITS));
   };
   const onKeyDown = (event: KeyboardEvent) => {
     if (event.isComposing || event.ctrlKey || event.altKey || event.metaKey) return;
@@ -114,7 +125,7 @@ export function NumberInput(props: NumberInputProps) {
     if (count !== undefined) {
       event.preventDefault();
       move(count * (event.shiftKey && Math.abs(count) === 1 ? 10 : 1));
-    } else if (event.key === "Enter" && typed !== null) void commit(shown);
+    } else if (event.key === "Enter" && typed !== null) void commit(current);
     else if (event.key === "Escape" && !event.shiftKey && typed !== null) {
       event.preventDefault();
       restore();
@@ -131,7 +142,7 @@ export function NumberInput(props: NumberInputProps) {
   };
   const onInvalid = (event: Event) => {
     event.preventDefault();
-    void commit(shown);
+    void commit(current);
     if (input.current?.form?.querySelector(":invalid") === input.current) input.current?.focus();
   };
 
@@ -143,7 +154,7 @@ export function NumberInput(props: NumberInputProps) {
     if (reason !== "") line.current?.scrollIntoView({ block: "nearest" });
   }, [reason]);
   useLayoutEffect(() => {
-    const reading = typed === null && value !== null ? null : readTyped(shown);
+    const reading = typed === null && value !== null ? null : readTyped(current);
     input.current?.setCustomValidity(reading && "reason" in reading ? reading.reason : "");
   });
 
@@ -160,7 +171,7 @@ export function NumberInput(props: NumberInputProps) {
             onPointerDown={(event) => {
               event.preventDefault();
               input.current?.focus();
-              type(/^[-\u2212]/.test(shown) ? shown.slice(1) : `-${shown}`);
+              type(/^[-\u2212]/.test(current) ? current.slice(1) : `-${current}`);
             }}
           >
             ±
@@ -186,7 +197,15 @@ export function NumberInput(props: NumberInputProps) {
           aria-invalid={reason !== "" || isRefused}
           aria-describedby={[describedBy, `${ownId}-reason`].filter(Boolean).join(" ")}
           onInput={(event) => type(event.currentTarget.value)}
+          onFocus={({ currentTarget: field }) => {
+            const isSelected = field.selectionEnd !== 0 && field.selectionStart === 0;
+            // Before the browser selects the text or places the caret in it.
+            field.value = current;
+            if (isSelected) field.select();
+            setFocus(true);
+          }}
           onBlur={() => {
+            setFocus(false);
             if (typed !== null && typed !== committed.current) void commit(typed);
           }}
           onKeyDown={onKeyDown}
