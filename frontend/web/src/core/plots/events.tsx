@@ -1,6 +1,6 @@
 import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import type { SessionEvent } from "../api/types";
-import { session } from "../state/session";
+import { selectionCount, session } from "../state/session";
 import { text } from "../text/en";
 import { closeOnEscape } from "../widgets/panel";
 import { isLoad, nameMarks, type PlacedMark, rankOf } from "./eventlines";
@@ -75,6 +75,7 @@ function measure(mark: HTMLElement): PlacedMark {
 
 /** The events whose samples are stored. */
 function eventsInView(): SessionEvent[] {
+  void selectionCount.value;
   const oldest = shownRing().oldestTime;
   return (session.value?.events ?? []).filter((event) => !(event.time_s < oldest));
 }

@@ -76,13 +76,16 @@ export function zoomedSpan(): Span {
 }
 
 /** Whether any sample of the span is stored or may still come. */
-export const mayHaveZoomedSamples = (): boolean => mayHaveSamples(zoomedRing(), zoomedSpan());
+export function mayHaveZoomedSamples(): boolean {
+  void selectionCount.value;
+  return mayHaveSamples(zoomedRing(), zoomedSpan());
+}
 
 export const EVENT_VIEW: ChartView = { ring: zoomedRing, span: zoomedSpan, hasCursors: false };
 
-/** Channels that are added later are zoomed, too, as far back as the ring contains them. */
+/** Channels and samples that arrive later are zoomed, too, as far back as the ring contains them. */
 export const followChannels = (): (() => void) =>
   effect(() => {
     void selectionCount.value;
-    eventSamples?.ring.addChannelsFrom(samples.ring);
+    eventSamples?.ring.completeFrom(samples.ring);
   });

@@ -78,7 +78,8 @@ export const secondsBehind = (): number => {
 };
 
 /**
- * A restarted run has no past, so the plots go live; new channels get their past in the copy, too.
+ * A restarted run has no past, so the plots go live; channels and samples that arrive later
+ * are added to the copy.
  */
 export function followSession(): () => void {
   let run = session.peek()?.run_number;
@@ -91,7 +92,7 @@ export function followSession(): () => void {
     void selectionCount.value;
     const span = frozen.peek();
     if (span === null) return;
-    span.ring.addChannelsFrom(samples.ring);
+    span.ring.completeFrom(samples.ring);
     frozen.value = { ...span };
     incrementReceived();
   });

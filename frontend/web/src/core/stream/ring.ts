@@ -63,8 +63,6 @@ interface Lane {
 export class SampleRing extends TimeRing {
   #channels: readonly string[];
   #lanes: Lane[] = [];
-  /** The columns of `addChannelsFrom`. */
-  readonly #added = new Set<string>();
   #changesOfPast = 0;
 
   /**
@@ -173,29 +171,38 @@ export class SampleRing extends TimeRing {
   }
 
   /**
-   * Copy missing channels from another ring, for samples of the same time; again what has arrived
-   * since then.
+   * Take what is missing here from another ring: channels, and samples up to the newest; again what
+   * has arrived since then.
    */
-  addChannelsFrom(source: SampleRing): void {
+  completeFrom(source: SampleRing): void {
     this.#changesOfPast++;
-    const known = this.#columns.filter((name) => !this.#added.has(name));
-    const missing = source.#columns.filter((name) => !known.includes(name));
-    for (const name of missing) this.#added.add(name);
+    const known = this.copy();
     this.#channels = [...new Set([...this.#channels, ...source.#channels])];
-    for (const { id, columns } of this.#lanes) {
-      const lane = source.#lanes.findIndex((other) => other.id === id) + 1;
-      for (const name of missing) {
-        const column = this.#blank();
-        for (let index = 0; index < this.length; index++) {
-          const time = this.timeAt(index);
-          const at = source.lowerBound(time);
-          if (source.timeAt(at) === time) {
-            column[this.slot(index)] = source.valueAt(name, at, lane);
-          }
+    const isLate = (timeS: number) =>
+      timeS < this.newestTime && this.timeAt(this.lowerBound(timeS)) !== timeS;
+    const late = source.timesFrom(0).filter(([timeS]) => isLate(timeS));
+    const times = [...this.timesFrom(0), ...late].sort(([one], [other]) => one - other);
+    const blank = () => new Map(this.#columns.map((name) => [name, this.#blank()]));
+    this.#lanes = this.#lanes.map(({ id }) => ({ id, columns: blank() }));
+    const places = this.#lanes.map(({ id }) => source.#lanes.findIndex((lane) => lane.id === id));
+    this.clear();
+    for (const [timeS, dueTick] of times) {
+      const [own, other] = [known.#indexAt(timeS), source.#indexAt(timeS)];
+      for (const [index, { columns }] of this.#lanes.entries()) {
+        for (const [name, column] of columns) {
+          const value = known.valueAt(name, own, index + 1);
+          const place = (places[index] as number) + 1;
+          column[this.head] = Number.isNaN(value) ? source.valueAt(name, other, place) : value;
         }
-        columns.set(name, column);
       }
+      this.advanceTo(timeS, dueTick);
     }
+  }
+
+  /** Index of the sample at exactly this time; -1 if there is none. */
+  #indexAt(timeS: number): number {
+    const index = this.lowerBound(timeS);
+    return this.timeAt(index) === timeS ? index : -1;
   }
 
   /** Newest value of a channel of lane 1, 2, …; NaN if there is none. */

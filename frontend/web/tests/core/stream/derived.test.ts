@@ -30,7 +30,7 @@ describe("a derived channel", () => {
     const both = ring.withChannels(VELOCITIES);
     both.append(of(0, 3, 1), 1);
     expect(derived(both)).toEqual([2]);
-    held.addChannelsFrom(both);
+    held.completeFrom(both);
     expect(derived(held)).toEqual([2]);
     expect(derived(both.withChannels(VELOCITIES.slice(0, 1)))).toEqual([Number.NaN]);
   });

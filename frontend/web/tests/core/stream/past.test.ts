@@ -70,9 +70,24 @@ describe("the past after the first samples", () => {
     const frozen = ring.copy();
     const extended = ring.withChannels(NAMES);
     extended.insert(batch(400, 20), PERIOD_S);
-    frozen.addChannelsFrom(extended);
+    frozen.completeFrom(extended);
     extended.insert(batch(300, 20), PERIOD_S);
-    frozen.addChannelsFrom(extended);
+    frozen.completeFrom(extended);
     expect(ticksOf(frozen, NAMES[1]).slice(60)).toEqual(range(300, 500));
+  });
+
+  it("completes a frozen copy of the first samples, and fills its gap, but adds no newer ones", () => {
+    const ring = new SampleRing(1000, NAMES, [7, 9]);
+    ring.append(batch(300, 4), PERIOD_S);
+    ring.append(batch(400, 4), PERIOD_S);
+    const [frozen, drawn] = [ring.copy(), ring.changesOfPast];
+    ring.insert(batch(320, 16), PERIOD_S);
+    ring.append(batch(420, 4), PERIOD_S);
+    frozen.completeFrom(ring);
+    ring.insert(batch(100, 40), PERIOD_S);
+    frozen.completeFrom(ring);
+    expect(ticksOf(frozen)).toEqual(range(100, 420));
+    expect(ticksOf(frozen, NAMES[1], 2)).toEqual(range(100, 420).map((tick) => -tick));
+    expect(frozen.changesOfPast, "a plot draws all of it again").toBeGreaterThan(drawn);
   });
 });

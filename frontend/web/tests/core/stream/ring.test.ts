@@ -153,7 +153,7 @@ describe("the lanes of a SampleRing", () => {
     const next = ring.withChannels(["a"]);
     next.setLanes([1, 3]);
     next.append(tick(0, { 1: 10, 3: 30 }), 1);
-    held.addChannelsFrom(next);
+    held.completeFrom(next);
     expect([1, 2, 3].map((number) => lane(held, number))).toEqual([[10], [Number.NaN], [30]]);
   });
 
@@ -234,7 +234,7 @@ describe("a SampleRing whose channels change", () => {
     const held = ring.copy();
     const next = ring.withChannels(["b"]);
     next.append(one(1, 20, 30, 40), 1);
-    held.addChannelsFrom(next);
+    held.completeFrom(next);
     expect(held.channels).toEqual(["a", "b"]);
     expect(values(held, "a")).toEqual([1, 2, 3]);
     expect(values(held, "b")).toEqual([Number.NaN, 20, 30]);
