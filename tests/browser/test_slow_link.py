@@ -1,9 +1,13 @@
 """A first visit over a slow link, in a browser: samples first, and words for a slow connection."""
 
+import signal
+
 import pytest
 from playwright.sync_api import Page, WebSocket, expect
 
-from tests.lab import Lab
+from tests.lab import Lab, run_lab
+from tests.server.blocked_lab import PROGRAM
+from tests.server.test_blocked_session import blocked, end_blocked
 from tests.slow_link import open_slow_link
 from tests.waiting import wait_until
 
@@ -12,6 +16,13 @@ pytestmark = [pytest.mark.browser, pytest.mark.wall_clock]
 RATE_BPS, ROUND_TRIP_S, LONGEST_S = 50_000, 0.4, 15.0
 ROUND_TRIPS = 8
 """Start page, files and stream, each with a new connection, and two for TCP's slow start."""
+
+WATCH = """(text) => {
+    window.wasShown = false;
+    const look = () => { window.wasShown ||= document.body.textContent.includes(text); };
+    new MutationObserver(look)
+        .observe(document.body, { childList: true, characterData: true, subtree: true });
+}"""
 
 
 def count_samples(page: Page) -> int:
@@ -62,3 +73,19 @@ def test_first_visit_has_its_samples_within_the_bytes_of_15_s(page: Page, lab: L
         link.cut()
         expect(status).to_contain_text("Live")
         wait_until(lambda: count_samples(page) > 1000)
+
+
+@pytest.mark.exhaustive
+def test_blocked_session_is_not_shown_as_a_slow_connection(page: Page) -> None:
+    with run_lab(program=PROGRAM) as lab:
+        lab.client.post(lab.session + "/start").raise_for_status()
+        page.goto(lab.url)
+        status = page.locator(".statusbar").get_by_role("status").first
+        expect(status).to_contain_text("Live")
+        page.evaluate(WATCH, "Slow connection: receiving …")
+        with blocked(lab):
+            expect(status).to_contain_text("Server busy: sessions do not respond …")
+            expect(status).to_contain_text("Sessions do not respond")
+            expect(page.get_by_role("alert")).to_contain_text("do not respond")
+        assert page.evaluate("wasShown") is False
+        assert end_blocked(lab, signal.SIGINT) == 1

@@ -1,7 +1,7 @@
 import { reset, stopRecording } from "../core/api/client";
 import { commandStatus } from "../core/api/outcome";
 import { perform } from "../core/state/actions";
-import { isNewInstance, phase, session } from "../core/state/session";
+import { isLost, isNewInstance, phase, session } from "../core/state/session";
 import { text } from "../core/text/en";
 import { Banner } from "../core/widgets/banner";
 import { Problem } from "../core/widgets/form";
@@ -44,21 +44,21 @@ function NewInstance() {
 export function Banners() {
   const fault = session.value?.bench ? null : session.value?.fault;
   const recording = session.value?.recording;
-  const isLost = phase.value === "lost";
+  const isBlocked = phase.value === "blocked";
   return (
     <div class="banners">
       <StopBanners />
       {commandStatus.value !== null && <CommandStatus now={commandStatus.value} />}
-      {isLost && (
+      {isLost.value && (
         <Banner
           look="is-lost"
           role="alert"
           sign=""
-          title={text.connection.lostTitle}
-          words={text.connection.lostText}
+          title={isBlocked ? text.connection.blockedTitle : text.connection.lostTitle}
+          words={isBlocked ? text.connection.blockedText : text.connection.lostText}
         />
       )}
-      {isNewInstance.value && !isLost && <NewInstance />}
+      {isNewInstance.value && !isLost.value && <NewInstance />}
       {fault && (
         <div class="banner is-fault" role="alert">
           <span class="banner-sign" aria-hidden="true">
@@ -71,7 +71,7 @@ export function Banners() {
           <button
             type="button"
             class="button"
-            disabled={isLost}
+            disabled={isLost.value}
             onClick={() => void perform("session", reset)}
           >
             {text.fault.reset}
@@ -89,7 +89,7 @@ export function Banners() {
           <button
             type="button"
             class="button"
-            disabled={isLost}
+            disabled={isLost.value}
             onClick={() => void perform("session", stopRecording)}
           >
             {text.recording.close}

@@ -15,8 +15,10 @@ const STATUS_SIGNS = { running: "▶", paused: "❚❚", fault: "▲" } as const
 const PHASE_SIGNS = {
   live: "●",
   slow: "◌",
+  busy: "◌",
   connecting: "◌",
   lost: "○",
+  blocked: "○",
   locked: "○",
   ended: "○",
 } as const;

@@ -11,6 +11,7 @@ import type {
   Configuration,
   EffectsRequest,
   Figure,
+  Health,
   Kinds,
   Lane,
   Law,
@@ -114,6 +115,7 @@ function call<M extends Method, P extends SessionPath>(method: M, path: P, ...bo
 
 export type GainsRequest = Body<"put", "/gains">[0];
 
+export const readHealth = () => request("get", "health") as Promise<Health>;
 export const readState = () => call("get", "");
 export const putPosition = (reference: RequestOf<PositionReference>) =>
   call("put", "/position", reference);

@@ -48,6 +48,7 @@ export type BenchState = NonNullable<SessionState["bench"]>;
 export type BenchStatus = BenchState["status"];
 export type LoopState = BenchState["loop"];
 export type Axis = Schemas["HomingRequest"]["step"];
+export type Health = Schemas["Health"];
 export type Figure = Schemas["FigureExperiment"]["figure"];
 export type Refusal = Schemas["Problem"];
 export type OutcomeState = Schemas["OutcomeState"];

@@ -1,6 +1,6 @@
 /** State of the session: signals for slow changes, a ring for the samples. */
 import { computed, signal } from "@preact/signals";
-import { readState, streamAddress } from "../api/client";
+import { readHealth, readState, streamAddress } from "../api/client";
 import { LockedError, RefusedError } from "../api/errors";
 import type { Hello, SessionState } from "../api/types";
 import { type Phase, type ProbeResult, StreamConnection } from "../stream/connection";
@@ -70,7 +70,9 @@ export function incrementReceived(): void {
   receivedCount.value = receivedCount.peek() + 1;
 }
 
-export const isLive = computed(() => phase.value === "live" || phase.value === "slow");
+const LIVE: readonly Phase[] = ["live", "slow", "busy"];
+export const isLive = computed(() => LIVE.includes(phase.value));
+export const isLost = computed(() => phase.value === "lost" || phase.value === "blocked");
 export const samples: { ring: SampleRing } = { ring: new SampleRing(1, []) };
 
 let periodS = 0.001;
@@ -184,7 +186,7 @@ function acceptBinary(message: ArrayBuffer): void {
 }
 
 function changePhase(next: Phase): void {
-  if (next === "lost") selection.extendsSamples = false;
+  if (next === "lost" || next === "blocked") selection.extendsSamples = false;
   if (next === "live") {
     // The greeting alone does not show that samples arrive.
     if (beginning.awaitsSamples) return;
@@ -194,19 +196,29 @@ function changePhase(next: Phase): void {
   phase.value = next;
 }
 
+const SILENT_S = 1;
+
+/** The server answers this request even if a session blocks all others. */
+const areSessionsSilent = async (): Promise<boolean> => {
+  const health = await readHealth().catch(() => null);
+  return health !== null && health.sessions_silent_s > SILENT_S;
+};
+
 async function probe(): Promise<ProbeResult> {
   try {
     await readState();
     return "up";
   } catch (error) {
     if (error instanceof LockedError) return "locked";
-    return error instanceof RefusedError && error.status === 404 ? "ended" : "down";
+    if (error instanceof RefusedError && error.status === 404) return "ended";
+    return (await areSessionsSilent()) ? "blocked" : "down";
   }
 }
 
 const connection = new StreamConnection(
   () => streamAddress(RATE_HZ, HISTORY_S, selection.channels),
   probe,
+  areSessionsSilent,
   {
     onPhase: changePhase,
     onText: acceptText,

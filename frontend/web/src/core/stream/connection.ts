@@ -3,11 +3,25 @@
  * only: the server sends small ones, so that the next one is soon complete on a slow link, too.
  */
 
-/** Result of an ordinary request after the stream was lost. */
-/** ended: the server answers, but the streamed session no longer exists. */
-export type ProbeResult = "up" | "down" | "locked" | "ended";
-/** slow: connected, but nothing has arrived for a while, or no sample yet. */
-export type Phase = "connecting" | "live" | "slow" | "lost" | "locked" | "ended";
+/**
+ * Result of an ordinary request after the stream was lost. ended: the server answers, but the
+ * streamed session no longer exists. blocked: the server answers, but its sessions do not.
+ */
+export type ProbeResult = "up" | "down" | "locked" | "ended" | "blocked";
+/**
+ * slow: connected, but nothing has arrived for a while, or no sample yet. busy: the same, because
+ * the sessions of the server do not respond; blocked: after a longer time, when their state is
+ * unknown.
+ */
+export type Phase =
+  | "connecting"
+  | "live"
+  | "slow"
+  | "busy"
+  | "lost"
+  | "blocked"
+  | "locked"
+  | "ended";
 
 interface StreamHandlers {
   onPhase(phase: Phase): void;
@@ -16,6 +30,8 @@ interface StreamHandlers {
 }
 
 const SLOW_TIMEOUT_MS = 2000;
+/** Time to find out whether the link or the server is slow. */
+const REASON_TIMEOUT_MS = 500;
 const SILENCE_TIMEOUT_MS = 5000;
 const SHORT_RETRY_MS = 600;
 
@@ -32,6 +48,10 @@ export class StreamConnection {
   #wasLive = false;
   /** Whether it is silent, and another connection is tried. */
   #isLost = false;
+  /** Whether nothing has arrived since it was lost, also by another connection. */
+  #isRecovering = false;
+  /** Whether the server answered then, and its sessions did not. */
+  #isBlocked = false;
   #retryTimer: ReturnType<typeof setTimeout> | undefined;
   #slowTimer: ReturnType<typeof setTimeout> | undefined;
   #silenceTimer: ReturnType<typeof setTimeout> | undefined;
@@ -39,10 +59,13 @@ export class StreamConnection {
   /**
    * @param address address of the stream
    * @param probe called after a failure, because a WebSocket does not report why it was rejected
+   * @param areSessionsSilent called when nothing arrives: whether the server reports that its
+   * sessions do not respond
    */
   constructor(
     private readonly address: () => URL,
     private readonly probe: () => Promise<ProbeResult>,
+    private readonly areSessionsSilent: () => Promise<boolean>,
     private readonly handlers: StreamHandlers,
   ) {}
 
@@ -76,7 +99,7 @@ export class StreamConnection {
     this.#attempt = 0;
     this.#wasLive = true;
     // A link that was silent for a while continues with the same connection.
-    this.#isLost = false;
+    this.#isLost = this.#isRecovering = this.#isBlocked = false;
     clearTimeout(this.#retryTimer);
     this.#listenForSilence();
     if (typeof data === "string") this.handlers.onText(data);
@@ -85,20 +108,43 @@ export class StreamConnection {
   }
 
   #listenForSilence(): void {
-    clearTimeout(this.#slowTimer);
+    this.#endSlowTimer();
     clearTimeout(this.#silenceTimer);
-    this.#slowTimer = setTimeout(() => {
-      if (this.#wasLive) this.handlers.onPhase("slow");
-    }, SLOW_TIMEOUT_MS);
+    this.#slowTimer = setTimeout(() => void this.#explainSilence(), SLOW_TIMEOUT_MS);
     this.#silenceTimer = setTimeout(() => void this.#recover(), SILENCE_TIMEOUT_MS);
   }
 
-  async #recover(): Promise<void> {
-    this.#isLost = true;
+  async #explainSilence(): Promise<void> {
+    if (!this.#wasLive || this.#isRecovering) return;
+    const timer = setTimeout(() => this.handlers.onPhase("slow"), REASON_TIMEOUT_MS);
+    this.#slowTimer = timer;
+    const isBlocked = await this.areSessionsSilent();
+    if (this.#slowTimer !== timer) return;
+    clearTimeout(timer);
+    this.#isBlocked = isBlocked;
+    this.handlers.onPhase(isBlocked ? "busy" : "slow");
+  }
+
+  #endSlowTimer(): void {
     clearTimeout(this.#slowTimer);
-    if (this.#wasLive) this.handlers.onPhase("lost");
+    this.#slowTimer = undefined;
+  }
+
+  #reportLoss(): void {
+    if (this.#wasLive) this.handlers.onPhase(this.#isBlocked ? "blocked" : "lost");
+  }
+
+  async #recover(): Promise<void> {
+    this.#isLost = this.#isRecovering = true;
+    this.#endSlowTimer();
+    this.#reportLoss();
     const probeResult = await this.probe();
     if (!this.#isLost) return;
+    const isBlocked = probeResult === "blocked";
+    if (isBlocked !== this.#isBlocked) {
+      this.#isBlocked = isBlocked;
+      this.#reportLoss();
+    }
     if (probeResult === "locked" || probeResult === "ended") {
       this.#drop();
       this.handlers.onPhase(probeResult);
@@ -113,7 +159,7 @@ export class StreamConnection {
   }
 
   #drop(): void {
-    clearTimeout(this.#slowTimer);
+    this.#endSlowTimer();
     clearTimeout(this.#silenceTimer);
     if (this.#socket === null) return;
     this.#socket.onmessage = null;

@@ -40,6 +40,7 @@ describe("a stream with a slow first connection", () => {
     const connection = new StreamConnection(
       () => new URL("ws://lab/stream"),
       async () => "down",
+      async () => false,
       { onPhase: (phase) => void phases.push(phase), onText: () => {}, onBinary: () => {} },
     );
     connection.open();
@@ -50,13 +51,41 @@ describe("a stream with a slow first connection", () => {
     sockets.at(-1)?.onclose?.();
     expect(phases).toEqual(["live", "lost"]);
     await vi.advanceTimersByTimeAsync(20_000);
-    expect(phases.at(-1)).toBe("lost");
+    expect(new Set(phases.slice(1)), "a silent new connection is not live").toEqual(
+      new Set(["lost"]),
+    );
     vi.useRealTimers();
     vi.unstubAllGlobals();
   });
 });
 
 describe("a stream that stalls", () => {
+  it("is busy, then blocked if the server reports that its sessions do not respond", async () => {
+    vi.useFakeTimers();
+    const sockets = stubSockets();
+    const phases: string[] = [];
+    let result: ProbeResult = "blocked";
+    const connection = new StreamConnection(
+      () => new URL("ws://lab/stream"),
+      async () => result,
+      async () => true,
+      { onPhase: (phase) => void phases.push(phase), onText: () => {}, onBinary: () => {} },
+    );
+    connection.open();
+    sockets[0]?.onmessage?.({ data: "{}" });
+    await vi.advanceTimersByTimeAsync(4500);
+    expect(phases).toEqual(["live", "busy"]);
+    await vi.advanceTimersByTimeAsync(20_000);
+    expect(new Set(phases.slice(2))).toEqual(new Set(["blocked"]));
+    result = "down";
+    await vi.advanceTimersByTimeAsync(20_000);
+    expect(phases.at(-1), "the server has ended").toBe("lost");
+    sockets.at(-1)?.onmessage?.({ data: "{}" });
+    expect(phases.at(-1)).toBe("live");
+    vi.useRealTimers();
+    vi.unstubAllGlobals();
+  });
+
   it("is slow after 2 s and lost after 5 s, and goes on with the same connection", async () => {
     vi.useFakeTimers();
     const sockets = stubSockets();
@@ -64,6 +93,7 @@ describe("a stream that stalls", () => {
     const connection = new StreamConnection(
       () => new URL("ws://lab/stream"),
       () => new Promise(() => {}),
+      async () => false,
       { onPhase: (phase) => void phases.push(phase), onText: () => {}, onBinary: () => {} },
     );
     connection.open();
@@ -89,6 +119,7 @@ describe("a stream whose session has ended", () => {
     const connection = new StreamConnection(
       () => new URL("ws://lab/stream"),
       async () => findings.shift() ?? "down",
+      async () => false,
       { onPhase: (phase) => void phases.push(phase), onText: () => {}, onBinary: () => {} },
     );
     connection.open();
