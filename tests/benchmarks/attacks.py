@@ -92,10 +92,17 @@ def build_head(lab: Lab, method: str, path: str, more: str = "") -> bytes:
 
 def open_stream(lab: Lab, query: str, receive_bytes: int | None = None) -> socket.socket:
     """Open a stream of the shared session, without reading it."""
+    return open_websocket(lab, f"{lab.session}/stream?{query}", "", receive_bytes)
+
+
+def open_websocket(
+    lab: Lab, path: str, more: str, receive_bytes: int | None = None
+) -> socket.socket:
+    """Open a WebSocket without reading it; more: further headers."""
     plain = open_socket(lab, receive_bytes)
     key = base64.b64encode(os.urandom(16)).decode()
-    more = UPGRADE + f"Sec-WebSocket-Key: {key}\r\n"
-    plain.sendall(build_head(lab, "GET", f"{lab.session}/stream?{query}", more))
+    more += UPGRADE + f"Sec-WebSocket-Key: {key}\r\n"
+    plain.sendall(build_head(lab, "GET", path, more))
     answer = plain.recv(12)
     assert answer == b"HTTP/1.1 101", answer
     return plain

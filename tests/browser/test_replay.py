@@ -238,3 +238,8 @@ def test_run_describes_itself(opened: Opened, exported: Path) -> None:
     page.get_by_role("button", name="About this run").click()
     expect(page.get_by_role("dialog").get_by_text("inf", exact=True)).to_be_visible()
     watch.check(exported)
+
+
+def test_translators_leave_the_3d_view(opened: Opened) -> None:
+    view = opened.page.locator("iframe")
+    assert view.evaluate("view => view.contentDocument.documentElement.translate") is False

@@ -11,11 +11,14 @@ headers here.
 import asyncio
 import math
 import struct
+from collections.abc import Callable
 from typing import Any, cast
 
 import h11
 from uvicorn.protocols.http.h11_impl import H11Protocol
+from uvicorn.protocols.utils import ClientDisconnected
 from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
+from websockets.exceptions import InvalidState
 from websockets.frames import Frame
 from websockets.http11 import Response
 from websockets.server import ServerProtocol
@@ -120,12 +123,12 @@ class BoundWebSocket(WebSocketsSansIOProtocol):
     """A WebSocket that limits the data on their way, and ends if its client takes none.
 
     Data in the buffers of the kernel, of a proxy and of a slow link cannot be overtaken by newer
-    samples. Therefore a ping follows every `PING_EVERY_BYTES`; the pong reports that the client
-    has everything before it. `send` waits while more than the window is on the way. The window
-    grows until the data wait for `QUEUED_S` on their way.
+    samples. Therefore messages are sent in fragments of `PING_EVERY_BYTES`, each with a ping; the
+    pong reports that the client has everything before it. `send` waits while more than the window
+    is on the way. The window grows until the data wait for `QUEUED_S` on their way.
 
-    A client that neither answers a ping nor takes data within `ws_ping_timeout` s is disconnected,
-    and unsent data are discarded. A large message on a slow link delays the pong, but not the data.
+    A client that answers no ping within `ws_ping_timeout` s is disconnected, and unsent data are
+    discarded. A large message delays pongs on a slow link by one window, not by its own size.
     """
 
     def __init__(self, *arguments: Any, admission: Admission, **named: Any) -> None:
@@ -139,18 +142,41 @@ class BoundWebSocket(WebSocketsSansIOProtocol):
         self._pings: dict[bytes, tuple[int, float]] = {}
         self._quickest_s = math.inf
         self._room = asyncio.Event()
-        self._taken = 0
+        self._arrived_before = 0
 
     async def send(self, message: Any) -> None:
-        """Send a message when the window has room for it."""
-        if message["type"] == "websocket.send":
-            while self._sent - self._arrived >= self._window and not self.disconnected:
-                self._room.clear()
-                await self._room.wait()
-        await super().send(message)
-        if message["type"] == "websocket.send":
-            self._sent += len(message.get("bytes") or message.get("text") or "")
-            self._ping_if_due()
+        """Send a message, as far as the window has room for it."""
+        is_open = self.handshake_complete and not self.close_sent
+        if message["type"] != "websocket.send" or not is_open:
+            await super().send(message)
+            return
+        await self._wait_for_room()
+        text = message.get("text")
+        data = message.get("bytes") or b"" if text is None else text.encode()
+        begin_message = self.conn.send_binary if text is None else self.conn.send_text
+        is_whole = len(data) <= PING_EVERY_BYTES
+        self._send_fragment(begin_message, data[:PING_EVERY_BYTES], is_whole)
+        for begin in range(PING_EVERY_BYTES, len(data), PING_EVERY_BYTES):
+            await self._wait_for_room()
+            end = begin + PING_EVERY_BYTES
+            self._send_fragment(self.conn.send_continuation, data[begin:end], end >= len(data))
+
+    async def _wait_for_room(self) -> None:
+        while self._sent - self._arrived >= self._window and not self.disconnected:
+            self._room.clear()
+            await self._room.wait()
+        await self.writable.wait()
+        if self.disconnected:
+            raise ClientDisconnected
+
+    def _send_fragment(self, send: Callable[[bytes, bool], None], data: bytes, fin: bool) -> None:
+        try:
+            send(data, fin)
+        except InvalidState:
+            raise ClientDisconnected from None
+        self.transport.write(b"".join(self.conn.data_to_send()))
+        self._sent += len(data)
+        self._ping_if_due()
 
     def _ping_if_due(self) -> None:
         if self._sent - self._pinged < PING_EVERY_BYTES or self.transport.is_closing():
@@ -190,22 +216,17 @@ class BoundWebSocket(WebSocketsSansIOProtocol):
         self._room.set()
 
     def send_keepalive_ping(self) -> None:
-        """Ping the client, and note what it has taken by now."""
-        self._taken = self._count_taken()
+        """Ping the client, and note what it has received by now."""
+        self._arrived_before = self._arrived
         super().send_keepalive_ping()
 
     def keepalive_timeout(self) -> None:
-        """Disconnect a client that neither answers nor takes data."""
-        taken = self._count_taken()
-        if taken > self._taken and not self.transport.is_closing():
-            self._taken = taken
+        """Disconnect a client that has received nothing since the last ping or timeout."""
+        if self._arrived > self._arrived_before and not self.transport.is_closing():
+            self._arrived_before = self._arrived
             self.pong_timer = self.loop.call_later(
                 self.config.ws_ping_timeout or 0.0, self.keepalive_timeout
             )
             return
         super().keepalive_timeout()
         self.transport.abort()
-
-    def _count_taken(self) -> int:
-        """Bytes that the kernel or the client has taken."""
-        return self._arrived + self._sent - self.transport.get_write_buffer_size()

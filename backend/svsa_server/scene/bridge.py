@@ -4,6 +4,7 @@ import contextlib
 import io
 
 import viser
+from viser.infra import WebsockClientConnection
 
 from svsa.runs.configuration import Configuration
 from svsa_scene import ActuatorPose
@@ -13,7 +14,18 @@ from svsa_scene.scene import ActuatorScene
 
 
 class _LoopbackViser(viser.ViserServer):
-    """A viser server that never opens a public tunnel, also on request."""
+    """A viser server for connections of this machine.
+
+    It never opens a public tunnel, also on request. A proxy that waits for a slow browser does not
+    answer its pings, and is not disconnected.
+    """
+
+    def __init__(self) -> None:
+        super().__init__(host="127.0.0.1", port=0, verbose=False)
+        self._websock_server.on_client_connect(self._wait_for_pongs)
+
+    def _wait_for_pongs(self, client: WebsockClientConnection) -> None:
+        self._websock_server._live_connections[client.client_id].ping_timeout = None
 
     def request_share_url(self, verbose: bool = True) -> str | None:
         return None
@@ -24,7 +36,7 @@ class SceneBridge:
 
     def __init__(self, configuration: Configuration) -> None:
         with contextlib.redirect_stdout(io.StringIO()):
-            self._viser = _LoopbackViser(host="127.0.0.1", port=0, verbose=False)
+            self._viser = _LoopbackViser()
         self._scene = _build_scene(self._viser, configuration)
         self._stopped = False
 

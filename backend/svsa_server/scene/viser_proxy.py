@@ -1,8 +1,8 @@
 """viser under the server's own address, at /viser/{session}/.
 
-The page is forwarded with two changes: its reconnect does not wait for the focus that a frame
-rarely has, and viser's panels are hidden. Of a browser's messages only its camera is forwarded:
-viser has no roles, and any browser could otherwise change the scene for all.
+The page is forwarded with changes: its reconnect does not wait for the focus that a frame rarely
+has, viser's panels are hidden, and translators leave it. Of a browser's messages only its camera is
+forwarded: viser has no roles, and any browser could otherwise change the scene for all.
 """
 
 import asyncio
@@ -10,6 +10,7 @@ import contextlib
 import gzip
 import hashlib
 import math
+import socket
 import ssl
 from collections.abc import Awaitable, Callable
 from typing import NamedTuple
@@ -32,8 +33,9 @@ from svsa_server.security_headers import POLICY, VIEWER_POLICY
 
 MAX_BROWSER_MESSAGE_BYTES = 4096
 MAX_SCENE_MESSAGE_BYTES = 16 * 1024 * 1024
+SCENE_BUFFER_BYTES = 64 * 1024
+"""Receive buffer: poses in it are old when a slow browser gets them."""
 _CONNECT_TIMEOUT_S = 20.0
-_SEND_TIMEOUT_S = 20.0
 _NO_PEER = ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT)
 """No peer verification: the connection to a port of this machine is not encrypted."""
 _SUBPROTOCOL_PREFIX = "viser-v"
@@ -166,6 +168,8 @@ class ViserProxy:
         answer = await self._fetch(request)
         answer.raise_for_status()
         plain = answer.content.replace(b"<head>", b"<head>" + _INJECTED, 1)
+        # A browser's translator would replace the labels, which React then fails to update.
+        plain = plain.replace(b"<html", b'<html translate="no"', 1)
         etag = f'"{hashlib.sha256(plain).hexdigest()[:32]}"'
         return _Page(plain, await asyncio.to_thread(gzip.compress, plain, 6), etag)
 
@@ -188,16 +192,7 @@ class ViserProxy:
         try:
             await check_owned("session", websocket.path_params["session"])
             port = await self._find_port(websocket.path_params["session"])
-            viser = await websockets.connect(
-                f"ws://127.0.0.1:{port}/",
-                subprotocols=[Subprotocol(protocol)],
-                compression=None,
-                # A proxy from the environment must not be used for the loopback.
-                proxy=None,
-                max_size=MAX_SCENE_MESSAGE_BYTES,
-                max_queue=4,
-                open_timeout=_CONNECT_TIMEOUT_S,
-            )
+            viser = await _connect(port, protocol)
         except (SvsaError, OSError, TimeoutError, websockets.WebSocketException):
             await websocket.close(1013)
             return
@@ -207,6 +202,30 @@ class ViserProxy:
             if ending is not None:
                 with contextlib.suppress(RuntimeError, WebSocketDisconnect):
                     await websocket.close(ending.code, ending.reason)
+
+
+async def _connect(port: int, protocol: str) -> ClientConnection:
+    """Connect to viser. Neither side ends the connection because the other is busy."""
+    plain = socket.socket()
+    try:
+        plain.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, SCENE_BUFFER_BYTES)
+        plain.setblocking(False)
+        await asyncio.get_running_loop().sock_connect(plain, ("127.0.0.1", port))
+        return await websockets.connect(
+            f"ws://127.0.0.1:{port}/",
+            sock=plain,
+            subprotocols=[Subprotocol(protocol)],
+            compression=None,
+            # A proxy from the environment must not be used for the loopback.
+            proxy=None,
+            max_size=MAX_SCENE_MESSAGE_BYTES,
+            max_queue=4,
+            open_timeout=_CONNECT_TIMEOUT_S,
+            ping_interval=None,
+        )
+    except BaseException:
+        plain.close()
+        raise
 
 
 async def _relay_both_ways(websocket: WebSocket, viser: ClientConnection) -> _Ending | None:
@@ -230,16 +249,15 @@ async def _relay_both_ways(websocket: WebSocket, viser: ClientConnection) -> _En
 
 
 async def _pass_scene(websocket: WebSocket, viser: ClientConnection) -> _Ending | None:
-    """Scene to browser; ends when viser closes or the browser takes nothing for 20 s."""
+    """Scene to browser; ends when viser closes or the browser's connection ends.
+
+    A slow browser is not disconnected while it receives data; see `BoundWebSocket`.
+    """
     try:
         while True:
-            message = await viser.recv(decode=False)
-            async with asyncio.timeout(_SEND_TIMEOUT_S):
-                await websocket.send_bytes(message)
+            await websocket.send_bytes(await viser.recv(decode=False))
     except websockets.ConnectionClosed as closed:
         return _describe_ending(closed)
-    except TimeoutError:
-        return _Ending(1008, "too slow")
     except (WebSocketDisconnect, RuntimeError):
         return None
 

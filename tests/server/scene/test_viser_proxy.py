@@ -55,6 +55,7 @@ def test_page_is_served_with_focus_injected_and_compressed_on_request() -> None:
             outside = await client.get("/viser/lab/%2e%2e/%2e%2e/__init__.py")
         assert plain.status_code == 200
         assert "document.hasFocus=()=>true" in plain.text
+        assert '<html translate="no"' in plain.text
         assert plain.headers["content-type"].startswith("text/html")
         assert "content-encoding" not in plain.headers
         assert packed.headers["content-encoding"] == "gzip"

@@ -61,7 +61,7 @@ export function View({ recording: { run, arrays } }: { recording: Recording }) {
       setState("shown");
     };
     element.addEventListener("load", () => void start(), { once: true });
-    element.srcdoc = run.scene;
+    element.srcdoc = run.scene.replace("<html", '<html translate="no"');
     return () => {
       for (const end of ends) end();
     };
