@@ -83,7 +83,12 @@ def write_settings() -> str:
     ]
     others = [
         ("`SVSA_DATA`", "Folder of runs, studies and course progress", "`~/.local/share/svsa`"),
-        ("`SVSA_CACHE`", "Folder of the compiled functions", "`~/.cache/svsa`"),
+        (
+            "`SVSA_CACHE`",
+            "Folder of the compiled functions; `svsa-UID` in the folder of temporary files if it"
+            " cannot be used",
+            "`~/.cache/svsa`",
+        ),
     ]
     return f"""# Settings
 

@@ -76,12 +76,14 @@ def run_lab(
     port: int = 0,
     program: str = PROGRAM,
     within: Sequence[str] = (),
+    lines: list[str] | None = None,
     **settings: str,
 ) -> Iterator[Lab]:
     """Start a lab, wait until it says where it is, and stop it at the end.
 
-    program: Python code that runs `svsa`. within: a command that runs the given command. settings:
-    SVSA_… variables, in lower case; runs are stored in a new folder unless `data` names one.
+    program: Python code that runs `svsa`. within: a command that runs the given command. lines:
+    receives what the lab prints until it is started. settings: SVSA_… variables, in lower case;
+    runs are stored in a new folder unless `data` names one.
     """
     if "data" not in settings:
         with (
@@ -92,6 +94,7 @@ def run_lab(
                 port=port,
                 program=program,
                 within=within,
+                lines=lines,
                 data=folder,
                 **settings,
             ) as lab,
@@ -114,7 +117,7 @@ def run_lab(
     guard = threading.Timer(START_TIMEOUT_S, process.kill)
     guard.start()
     try:
-        found_port = _wait_for_port(process)
+        found_port = _wait_for_port(process, [] if lines is None else lines)
         guard.cancel()
         url = f"http://127.0.0.1:{found_port}"
         headers = {"Authorization": f"Bearer {secret}"} if secret else None
@@ -140,8 +143,7 @@ def end(process: subprocess.Popen[str]) -> None:
         raise
 
 
-def _wait_for_port(process: subprocess.Popen[str]) -> str:
-    lines = []
+def _wait_for_port(process: subprocess.Popen[str], lines: list[str]) -> str:
     assert process.stdout is not None
     for line in process.stdout:
         lines.append(line)

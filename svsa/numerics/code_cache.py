@@ -20,11 +20,11 @@ import stat
 import tempfile
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import cache
 from multiprocessing import parent_process
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeVar
 
 from numba.core.caching import (
     CompileResultCacheImpl,
@@ -47,6 +47,7 @@ _OF_FILE = re.compile(r"\w+(\.\w+)*")
 _SEAL = b"\n# "
 _log = logging.getLogger("svsa")
 _is_reported = False
+T = TypeVar("T")
 
 
 class _Locator(UserProvidedCacheLocator):
@@ -77,12 +78,13 @@ class SealedFiles(IndexDataCacheFile):
         self._save_index(overloads | {key: name})
 
     def _load_index(self) -> dict[Any, str]:
-        return super()._load_index() if read_sealed(Path(self._index_path)) else {}
+        return _unpickle(Path(self._index_path), super()._load_index) or {}
 
     def _load_data(self, name: str) -> Any:
-        if not read_sealed(path := Path(self._data_path(name))):
+        path, load = Path(self._data_path(name)), super()._load_data
+        if (data := _unpickle(path, lambda: load(name))) is None:
             raise FileNotFoundError(path)  # numba then compiles
-        return super()._load_data(name)
+        return data
 
     @contextlib.contextmanager
     def _open_for_write(self, filepath: str) -> Iterator[Any]:
@@ -90,6 +92,17 @@ class SealedFiles(IndexDataCacheFile):
         yield content
         # numba's pickles end before the digest.
         write_sealed(Path(filepath), content.getvalue())
+
+
+def _unpickle(path: Path, load: Callable[[], T]) -> T | None:
+    """Load a file; None without one. A file of other versions of packages is removed, too."""
+    if read_sealed(path) is None:
+        return None
+    try:
+        return load()
+    except Exception:
+        _discard(path, "is of another version")
+        return None
 
 
 class SharedCache(FunctionCache):
@@ -156,6 +169,7 @@ def read_sealed(path: Path) -> bytes | None:
     Returns:
         Its content; None if there is none, or it is damaged or cannot be read.
     """
+    state = "is damaged"
     try:
         if path.is_file():  # a pipe would block
             content, _, seal = path.read_bytes().rpartition(_SEAL)
@@ -163,12 +177,16 @@ def read_sealed(path: Path) -> bytes | None:
                 return content
         elif not os.path.lexists(path):
             return None
-    except OSError:
-        pass
-    _report(f"{path.name} in the folder of compiled code {path.parent} is damaged: compiling.")
+    except OSError as error:
+        state = f"cannot be read ({error.strerror})"
+    _discard(path, state)
+    return None
+
+
+def _discard(path: Path, state: str) -> None:
+    _report(f"{path.name} in the folder of compiled code {path.parent} {state}: compiling.")
     with contextlib.suppress(OSError):
         _remove(path)
-    return None
 
 
 def write_sealed(path: Path, content: bytes) -> None:
@@ -201,6 +219,11 @@ def _remove(path: Path) -> None:
         shutil.rmtree(path)
     else:
         path.unlink()
+
+
+def is_reported() -> bool:
+    """Whether this process has reported a problem of the cache, which it does once."""
+    return _is_reported
 
 
 @cache
@@ -249,8 +272,10 @@ def choose_root() -> Path | None:
         if os.access(root, os.R_OK | os.X_OK):
             return root.absolute()
         reason = f"{root} cannot be read"
-    except (OSError, RuntimeError) as error:  # no home: RuntimeError
-        reason = str(error)
+    except OSError as error:
+        reason = f"{error.filename} cannot be used ({error.strerror})"
+    except RuntimeError:
+        reason = "this user has no home folder"
     try:
         root = _open_temporary()
     except OSError:

@@ -20,7 +20,7 @@ from typing import Any
 from numba.core.errors import NumbaError
 from numba.core.serialize import dumps
 
-from svsa.numerics.code_cache import SharedCache
+from svsa.numerics.code_cache import SharedCache, is_reported
 
 CHILD = (
     "import pickle, sys; sys.path[:] = pickle.load(sys.stdin.buffer);"
@@ -134,11 +134,12 @@ def can_store(dispatcher: Any) -> bool:
 def _stop_children(dispatcher: Any) -> None:
     """Compile in this process from now on: no child can store its code."""
     report = _reports.pop()
-    folder = getattr(dispatcher._cache, "cache_path", "the cache")
+    if is_reported():
+        return
     report(
-        f"Compiled code cannot be stored in {folder}: control laws are compiled in the server."
-        f" {_MEMORY} Make the folder writable, free disk space, or set SVSA_CACHE to another"
-        " folder."
+        f"Compiled code cannot be stored in {dispatcher._cache.cache_path}: control laws are"
+        f" compiled in the server. {_MEMORY} Make the folder writable, free disk space, or set"
+        " SVSA_CACHE to another folder."
     )
 
 

@@ -85,6 +85,7 @@ DAMAGES = {
     "one bit": change(flip),
     "random": change(lambda content: bytes(range(256)) * 20),
     "foreign class": change(lambda content: b"cno_such_module\nNothing\n."),
+    "other version": lambda path: code_cache.write_sealed(path, b"cno_such_module\nNothing\n."),
     "folder": become(lambda path: (path / "x").mkdir(parents=True)),
     "pipe": become(os.mkfifo),
     "circle": become(lambda path: path.symlink_to(path.name)),

@@ -28,8 +28,15 @@ def run_program(cache: Path, child: str = "", before: tuple[str, ...] = ()) -> l
     """Run the program with a cache; return the lines that it prints."""
     command = [*before, sys.executable, "-c", PROGRAM.format(child=repr(child))]
     environment = os.environ | {"SVSA_CACHE": str(cache)}
-    ran = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
-    assert ran.returncode == 0, ran.stderr
+    ran = subprocess.run(
+        command,
+        env=environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        check=False,
+    )
+    assert ran.returncode == 0, ran.stdout
     return ran.stdout.splitlines()
 
 

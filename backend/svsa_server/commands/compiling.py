@@ -27,7 +27,11 @@ PREPARE = (
     f"import os; os.nice({LOWEST_PRIORITY}); from svsa.cli import prepare;"
     f" prepare(); prepare([{PAPERS_LAW!r}], {OTHER!r})"
 )
-COMPILE_FIRST = "from svsa.cli import main; main()"
+COMPILE_FIRST = (
+    # Problems of the cache are reported by the server.
+    "import logging; logging.getLogger('svsa').setLevel(logging.ERROR);"
+    " from svsa.cli import main; main()"
+)
 END_S = 2.0
 
 
