@@ -259,8 +259,11 @@ async def _live(app: FastAPI) -> AsyncIterator[None]:
         await asyncio.gather(*tasks, return_exceptions=True)
         # Sessions before recordings: closing them ends the recordings, which are then finished.
         await run_waiting(laboratory.close)
-        app.state.heavy_work.close()
-        app.state.jobs.close()
+        # In a thread, because they wait for a worker that is being started: while the event loop
+        # does not run, the server takes its sessions for blocked, and ends with an error.
+        app.state.jobs.drop()
+        await asyncio.to_thread(app.state.heavy_work.close)
+        await asyncio.to_thread(app.state.jobs.close)
         await app.state.recordings.close()
         await asyncio.to_thread(app.state.indexing.close)
         if isinstance(app.state.catalogue, Catalogue):

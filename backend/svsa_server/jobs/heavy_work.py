@@ -88,9 +88,8 @@ class HeavyWork:
             return self._pool.submit(job, *arguments)
 
     def close(self) -> None:
-        """End these workers, even in the middle of a job."""
-        with self._handing_over:
-            self._is_closed = True
+        """End these workers, even in the middle of a job; wait for one that is being started."""
+        self._is_closed = True
         self.end_workers()
 
     def end_workers(self) -> None:

@@ -307,10 +307,16 @@ class Jobs:
         """List the stored jobs (of a kind, if given), newest first."""
         return [job for job in reversed(self._kept.values()) if kind in (None, job.kind)]
 
-    def close(self) -> None:
-        """End all jobs; those that had not ended are listed as interrupted by the next server."""
+    def drop(self) -> None:
+        """Stop waiting for all jobs, in the event loop."""
         for job in self._kept.values():
             job.drop()
+
+    def close(self) -> None:
+        """End the workers; jobs that had not ended are listed as interrupted by the next server.
+
+        It waits for a worker that is being started.
+        """
         for queue in self._queues.values():
             queue.worker.close()
         self._folders.close()

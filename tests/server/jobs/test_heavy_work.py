@@ -13,7 +13,7 @@ from svsa.evaluation.workers import start_workers
 from svsa_server.jobs import heavy_work
 from svsa_server.jobs.heavy_work import RETRY_AFTER_S, BusyError, HeavyWork
 from svsa_server.problems import TYPE_PREFIX
-from tests.lab import Lab
+from tests.lab import PROGRAM, Lab, run_lab
 from tests.lab_in_process import run_lab_in_process
 from tests.server.jobs.done_by_workers import end, get_process, note_and_sleep, refuse, wait_for
 from tests.waiting import follow_recording, is_running, wait_until
@@ -89,6 +89,22 @@ def test_ended_lab_starts_no_job(work):
     work.close()
     with pytest.raises(BusyError, match="is shutting down"):
         asyncio.run(work.run(get_process))
+
+
+@pytest.mark.exhaustive
+def test_server_stopped_while_its_first_worker_starts_ends_without_an_error(tmp_path):
+    """On a busy machine a worker starts for longer than the sessions may be silent at the end."""
+    program = (
+        "import pathlib, time; from svsa_server import responsive; from svsa_server.jobs import"
+        " heavy_work as work; start = work.start_workers; responsive.END_SILENT_S = 0.5;"
+        f" note = pathlib.Path({str(tmp_path / 'starting')!r});"
+        " work.start_workers = lambda *a: (note.touch(), time.sleep(3), start(*a))[2]; "
+    )
+    with run_lab(program=program + PROGRAM) as lab:
+        tuning = {"kind": "tuning", "law": "pd", "budget": 2}
+        lab.client.post("/api/v1/jobs", json=tuning).raise_for_status()
+        wait_until((tmp_path / "starting").exists)
+    # The end of the lab has asserted its exit code.
 
 
 def test_rejection_is_returned_with_its_values(work):
