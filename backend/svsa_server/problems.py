@@ -6,10 +6,10 @@ import sys
 import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 from fastapi.responses import JSONResponse
-from pydantic import BaseModel, Field
+from pydantic import AfterValidator, BaseModel, Field
 
 import svsa
 from svsa.errors import SvsaError, Violation, write_value
@@ -114,6 +114,8 @@ class Problem(BaseModel):
 
 def hide_places(text: str) -> str:
     """Replace the absolute paths of this machine, which a student need not know, by short names."""
+    if "/" not in text and "\\" not in text:
+        return text
     places = [(find_data_folder(), "SVSA_DATA"), (Path(svsa.__file__).parents[1], "…")]
     places += [(Path(sys.prefix), "…"), (Path(tempfile.gettempdir()), "…")]
     with contextlib.suppress(RuntimeError):
@@ -123,6 +125,10 @@ def hide_places(text: str) -> str:
         if len(place) > 1:
             text = text.replace(place, names[place])
     return text
+
+
+ShownText = Annotated[str, AfterValidator(hide_places)]
+"""Text of an error that is part of another answer."""
 
 
 def build_problem(
@@ -164,7 +170,7 @@ def build_violation(violation: Violation) -> ViolationModel:
         name=_make_text(violation.name),
         value=_make_safe(violation.value),
         unit=violation.unit,
-        bound=violation.bound,
+        bound=_make_text(violation.bound),
         limits=violation.limits,
         finding=_make_text(violation.finding),
         message=_make_text(violation.message),

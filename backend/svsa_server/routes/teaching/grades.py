@@ -14,6 +14,7 @@ from svsa_server.access.owned import Owned
 from svsa_server.access.permissions import INSTRUCTOR_ONLY, OBSERVER, allow
 from svsa_server.access.roles import Role
 from svsa_server.jobs.gradings import Task, grade_all
+from svsa_server.problems import hide_places
 from svsa_server.routes.depends import BUSY, CREATED, REFUSALS, Locate, NamedPerson
 from svsa_server.routes.evaluation.jobs import find_jobs
 from svsa_server.routes.teaching.course import find_store
@@ -61,7 +62,8 @@ async def read_grades(
     The instructor reads the complete class; a student reads their own grades only.
     """
     wanted = person if caller.role is Role.INSTRUCTOR else caller.id
-    submitted = await asyncio.to_thread(list_graded, find_store(request), wanted or None)
+    listed = await asyncio.to_thread(list_graded, find_store(request), wanted or None)
+    submitted = [one._replace(problem=hide_places(one.problem)) for one in listed]
     if written == "csv":
         named = {"Content-Disposition": 'attachment; filename="grades.csv"'}
         table = write_csv(list(list_grades(submitted)))

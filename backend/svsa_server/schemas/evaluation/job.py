@@ -7,7 +7,7 @@ from pydantic import BaseModel, Field
 from svsa.errors import SvsaError
 from svsa.inputs.checked import BY_KIND
 from svsa_server.jobs.queue import Job, Kind, Status
-from svsa_server.problems import hide_places
+from svsa_server.problems import ShownText
 from svsa_server.schemas.evaluation.falsification import (
     FalsificationRequest,
     FalsificationResult,
@@ -37,7 +37,7 @@ class JobState(BaseModel):
     left_s: float | None = Field(
         description="Remaining time at this rate, s; null while it is not known"
     )
-    problem: str | None = Field(
+    problem: ShownText | None = Field(
         description="Why it failed or was interrupted, what was saved and how to continue"
     )
     result: TuningResult | FalsificationResult | None = Field(
@@ -72,10 +72,10 @@ def describe_job(job: Job, first: int | None = None) -> JobState:
             result = describe_tuning(job, is_under_way, first)
         elif job.kind == "falsification":
             result = describe_falsification(job, is_under_way)
-    except (SvsaError, OSError, ValueError, LookupError, TypeError) as error:
-        if job.status != "interrupted":
+    except (SvsaError, OSError, ValueError, LookupError, TypeError, AttributeError) as error:
+        if is_under_way:
             raise
-        problem = f"{problem} Its result is damaged, and not shown: {error}"
+        problem = f"{problem or ''} Its result is damaged, and not shown: {error}".strip()
     return JobState(
         id=job.id,
         kind=job.kind,
@@ -86,6 +86,6 @@ def describe_job(job: Job, first: int | None = None) -> JobState:
         total=progress.total,
         rate_per_s=progress.rate_per_s if is_under_way else None,
         left_s=progress.left_s if is_under_way else None,
-        problem=problem and hide_places(problem),
+        problem=problem,
         result=result,
     )

@@ -7,6 +7,7 @@ from pydantic import BaseModel, Field
 from svsa.hardware.homing import Axis
 from svsa.hardware.realtime.loss import Stopper
 from svsa.inputs.checked import Checked, quantity
+from svsa_server.problems import ShownText
 
 LoopStateName = Literal["ticking", "silent", "gone", "starting", "not_opened"]
 BenchStatusName = Literal["off", "reset", "config", "mode", "ready", "run", "ramp", "fault"]
@@ -101,7 +102,7 @@ class BenchState(BaseModel):
     interface: str = Field(description="python-can's interface and channel")
     calibrated_by: str | None
     calibrated_on: str | None = Field(description="ISO 8601")
-    problems: list[str] = Field(
+    problems: list[ShownText] = Field(
         description="Reasons why the bench cannot be armed; empty if it can"
     )
     homing: HomingState

@@ -5,6 +5,7 @@ from typing import Literal
 from pydantic import BaseModel, Field
 
 from svsa.simulation.reference.kinds import PositionReference, StiffnessReference
+from svsa_server.problems import ShownText
 
 
 class FigureState(BaseModel):
@@ -31,4 +32,4 @@ class Readiness(BaseModel):
     """Whether all functions of the lab are available."""
 
     ready: bool
-    problems: list[str] = Field(description="Problems, with what to do, one sentence each")
+    problems: list[ShownText] = Field(description="Problems, with what to do, one sentence each")

@@ -15,6 +15,7 @@ from svsa.control.installed import (
 from svsa.control.law import EstimateSource
 from svsa.errors import ParameterError
 from svsa.runs.configuration import Lane
+from svsa_server.problems import ShownText
 from svsa_server.schemas.lab.parameter import ParameterState, list_parameters
 
 
@@ -45,7 +46,7 @@ class LawState(BaseModel):
     parameters: list[ParameterState] = Field(
         description="Parameters of the law; none if it uses gains"
     )
-    problem: str | None = Field(description="Why the law cannot be used; null if it can")
+    problem: ShownText | None = Field(description="Why the law cannot be used; null if it can")
 
 
 def list_laws() -> list[LawState]:

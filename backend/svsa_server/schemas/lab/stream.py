@@ -19,6 +19,7 @@ from svsa.runs.session.frame import (
     FieldName,
     FieldType,
 )
+from svsa_server.problems import ShownText
 from svsa_server.schemas.lab.session import SessionProgress, SessionState
 
 BATCH_BYTES = 12 * 1024
@@ -94,7 +95,7 @@ class StreamError(BaseModel):
     """An error in the address of the stream; the stream is closed after it."""
 
     type: Literal["error"] = "error"
-    message: str
+    message: ShownText
 
 
 StreamMessage = Hello | StateMessage | StreamError

@@ -6,6 +6,7 @@ from pydantic import BaseModel, Field
 
 from svsa.actuators.faults import FAULTS, FaultKind, advise, label_fault
 from svsa.errors import Fault
+from svsa_server.problems import ShownText
 
 
 class FaultKindState(BaseModel):
@@ -29,7 +30,7 @@ class RunFault(BaseModel):
 
     code: str
     label: str = Field(description="Short label")
-    message: str = Field(description="Sentence with the values at the fault")
+    message: ShownText = Field(description="Sentence with the values at the fault")
     time_s: float = Field(description="Time of the run")
 
     @classmethod

@@ -19,6 +19,7 @@ from svsa.runs.records.header import (
 )
 from svsa.runs.records.measured_window import MeasuredWindow
 from svsa.runs.records.settings import RunSettings
+from svsa_server.problems import ShownText
 from svsa_server.schemas.runs.fault import RunFault
 from svsa_server.schemas.runs.lane import SegmentState, WindowState
 
@@ -80,7 +81,7 @@ class RunSummary(BaseModel):
         description="failed: it ended early; damaged: a part of it is unreadable. `message` has"
         " the reason, and the readable part."
     )
-    message: str
+    message: ShownText
     note: str = Field(description="Note if a newer version of svsa recorded it; otherwise empty")
     plant: PlantKind = Field(description="Plant of lane 1; only a simulated run can be branched")
     lanes: list[str]
@@ -167,7 +168,7 @@ class RunOrigin(BaseModel):
         description="Body of `POST /sessions` for a private session like it, without law and seed"
     )
     defaults: dict[str, Any] = Field(description="Configuration of that session")
-    problem: str | None = Field(
+    problem: ShownText | None = Field(
         description="Why no script can repeat the run in that session; null if one can"
     )
 
@@ -234,7 +235,7 @@ class RecordingState(BaseModel):
     run_id: str
     name: str
     state: Literal["recording", "failed", "closed"]
-    message: str
+    message: ShownText
     ticks: int
     bytes: int
 
