@@ -1,6 +1,5 @@
 """The folder of a class or a season: a secret seed for trials, and one file per result."""
 
-import json
 import logging
 import os
 import secrets
@@ -11,6 +10,8 @@ from typing import Generic, TypeVar
 
 from svsa.errors import ParameterError, Violation
 from svsa.inputs.checked import Checked
+from svsa.inputs.nesting import load_json
+from svsa.inputs.set_aside import set_aside
 from svsa.runs.records.former_words import translate_results
 from svsa.runs.records.header import replace_file
 
@@ -65,8 +66,10 @@ class ClassFolder(Generic[T]):
         Raises:
             OSError: If the file cannot be written.
         """
-        text = result.model_dump_json(indent=1) + "\n"
-        replace_file(self._results / f"{key}.json", text.encode())
+        path = self._results / f"{key}.json"
+        if path.is_dir():
+            set_aside(path)
+        replace_file(path, (result.model_dump_json(indent=1) + "\n").encode())
 
     def read_all(self) -> Iterator[T]:
         """Yield every readable result, in arbitrary order; a damaged one is logged, and stays."""
@@ -78,8 +81,8 @@ class ClassFolder(Generic[T]):
 
     def _read(self, path: Path) -> T:
         try:
-            return self._kind.model_validate(translate_results(json.loads(path.read_bytes())))
-        except (OSError, ValueError, RecursionError) as error:
+            return self._kind.model_validate(translate_results(load_json(path.read_bytes())))
+        except (OSError, ValueError, TypeError, AttributeError) as error:
             name = self._kind.__name__.lower()
             raise ParameterError(Violation(name, path, "", f"one of svsa ({error})")) from None
 

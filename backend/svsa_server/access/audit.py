@@ -6,6 +6,8 @@ its record.
 
 import json
 import logging
+import os
+import sys
 from datetime import UTC, datetime
 from logging.handlers import QueueHandler, QueueListener, RotatingFileHandler
 from pathlib import Path
@@ -16,15 +18,23 @@ from typing import Any
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from svsa.inputs.file_lock import close_to_others
+from svsa.inputs.set_aside import set_aside
 from svsa_server.access.guard import PERSON, find_path
 from svsa_server.access.permissions import PermissionTable
 from svsa_server.leases.lease import CHANGING
 
 FILE = "audit.jsonl"
+_log = logging.getLogger("svsa")
 _MAX_BYTES, _FILES = 10 * 1024 * 1024, 5
 _PLAIN = "%(message)s"
 NOWHERE = {"run": None, "tick": None, "in_control": None}
 """Fields of a request that is not about a session; otherwise see `HostedSession.read_instant`."""
+
+
+class _LogFile(RotatingFileHandler):
+    def handleError(self, record: logging.LogRecord) -> None:  # noqa: N802  name of `logging`
+        """Report in one line why an entry is missing."""
+        _log.error("An entry of the audit log is not stored: %s", sys.exc_info()[1])
 
 
 class AuditLog:
@@ -32,10 +42,11 @@ class AuditLog:
 
     def __init__(self, folder: Path) -> None:
         folder.mkdir(parents=True, exist_ok=True)
-        close_to_others(folder / FILE)
-        file = RotatingFileHandler(
-            folder / FILE, maxBytes=_MAX_BYTES, backupCount=_FILES, encoding="utf-8", delay=True
-        )
+        path = folder / FILE
+        if os.path.lexists(path) and not path.is_file():
+            _log.warning("%s is not a file: it is kept as %s.", path, set_aside(path).name)
+        close_to_others(path)
+        file = _LogFile(path, maxBytes=_MAX_BYTES, backupCount=_FILES, encoding="utf-8", delay=True)
         file.setFormatter(logging.Formatter(_PLAIN))
         queue: SimpleQueue[Any] = SimpleQueue()
         self._logger = logging.Logger("svsa.audit")

@@ -1,6 +1,5 @@
 """Read the audit log, newest first, in a worker process."""
 
-import json
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -8,6 +7,7 @@ from typing import Any, NamedTuple
 
 from starlette.routing import compile_path
 
+from svsa.inputs.nesting import load_json
 from svsa_server.access.audit import FILE
 from svsa_server.leases.lease import CHANGING
 
@@ -141,13 +141,12 @@ def read_backwards(folder: Path) -> Iterator[dict[str, Any]]:
     """Yield the lines of every log file, newest first; invalid lines are skipped."""
     files = [folder / FILE, *sorted(folder.glob(f"{FILE}.*"), key=_count_aside)]
     for path in files:
-        try:
-            lines = path.read_bytes().splitlines()
-        except FileNotFoundError:
+        if not path.is_file():
             continue
+        lines = path.read_bytes().splitlines()
         for written in reversed(lines):
             try:
-                line = json.loads(written[:_LONGEST_LINE])
+                line = load_json(written[:_LONGEST_LINE])
             except ValueError:
                 continue
             if isinstance(line, dict) and isinstance(line.get("time"), str):

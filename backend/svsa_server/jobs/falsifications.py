@@ -14,6 +14,7 @@ from svsa.evaluation.falsifier.measure import list_baselines, run_scenario
 from svsa.evaluation.falsifier.scenario import LoadScenario
 from svsa.evaluation.falsifier.trace import trace_scenario
 from svsa.evaluation.studies.tables import make_plain
+from svsa.inputs.nesting import load_json
 from svsa.runs.records.decimation import decimate
 from svsa.runs.records.header import replace_file
 from svsa_server.jobs.progress import JobFolder
@@ -84,7 +85,7 @@ def read_found(folder: Path) -> Found | None:
     if path is None:
         return None
     steps, outcomes = (
-        json.loads((folder / name).read_text(encoding="utf-8")) for name in (_STEPS, _OUTCOMES)
+        load_json((folder / name).read_text(encoding="utf-8")) for name in (_STEPS, _OUTCOMES)
     )
     return Found(read_scenario(path), steps, outcomes)
 

@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 
 from svsa.evaluation.tuning.file import describe_candidate, format_tuned
 from svsa.evaluation.tuning.tuner import Candidate, tune
+from svsa.inputs.nesting import load_json
 from svsa.runs.configuration import Design
 from svsa_server.jobs.progress import JobFolder
 
@@ -48,7 +49,7 @@ def read_candidates(folder: Path) -> list[dict[str, Any]]:
     """Read the candidates so far, and those on the validation trials."""
     with contextlib.suppress(FileNotFoundError):
         whole, _, _ = (folder / _CANDIDATES).read_text(encoding="utf-8").rpartition("\n")
-        return [json.loads(line) for line in whole.splitlines()]
+        return [load_json(line) for line in whole.splitlines()]
     return []
 
 

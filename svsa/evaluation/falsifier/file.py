@@ -17,6 +17,7 @@ from svsa.evaluation.search import Method
 from svsa.evaluation.studies.store import check_name
 from svsa.inputs.data_folder import find_data_folder
 from svsa.inputs.extras import __version__
+from svsa.inputs.nesting import load_json
 from svsa.inputs.toml_file import build_checked, parse_toml, read_checked, read_toml
 from svsa.runs.records.header import replace_file
 
@@ -190,7 +191,7 @@ def read_search(path: Path, adversary: Adversary, seed: int, method: Method) -> 
     """Read the runs of the same search; none if there is no file or it is of another search."""
     kept_path = path.with_name(path.name + SEARCH_SUFFIX)
     try:
-        kept = json.loads(kept_path.read_text(encoding="utf-8"))
+        kept = load_json(kept_path.read_text(encoding="utf-8"))
         severities = kept.pop("severities")
     except (OSError, ValueError, KeyError, AttributeError):
         return np.empty(0)

@@ -17,6 +17,7 @@ from svsa.evaluation.studies.study import Study
 from svsa.inputs.data_folder import find_data_folder
 from svsa.inputs.extras import __version__
 from svsa.inputs.file_lock import try_lock
+from svsa.inputs.nesting import load_json
 from svsa.runs.records.former_words import METRICS, translate_fields
 from svsa.runs.records.header import replace_file
 
@@ -104,14 +105,14 @@ def open_study(name: str, root: Path | None = None) -> StoredStudy:
     root = root or find_root(name)
     folder = root / name
     try:
-        written = json.loads((folder / STUDY_FILE).read_text(encoding="utf-8"))
+        written = load_json((folder / STUDY_FILE).read_text(encoding="utf-8"))
         study = Study(**_translate_definition(written["study"]))
         reported = written["created"], written["version"], written.get("owner", "")
         return StoredStudy(name, study, folder, *reported)
     except FileNotFoundError:
         known = ", ".join(one.name for one in list_studies(root)) or "none"
         raise StudyError(f"There is no study {name} in {root}; there: {known}.") from None
-    except (OSError, ValueError, KeyError, TypeError) as error:
+    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         raise StudyError(f"Study {name} cannot be read: {error}") from None
 
 
@@ -138,7 +139,7 @@ def read_owner(name: str, root: Path | None = None) -> str | None:
     if not _NAME.fullmatch(name):
         return None
     try:
-        written = json.loads(((root or find_root(name)) / name / STUDY_FILE).read_bytes())
+        written = load_json(((root or find_root(name)) / name / STUDY_FILE).read_bytes())
     except (OSError, ValueError):
         return None
     owner = written.get("owner", "") if isinstance(written, dict) else None

@@ -1,6 +1,5 @@
 """Results of a search as parameter file, JSON and checkpoint."""
 
-import json
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +10,7 @@ from svsa.control.installed import has_own_parameters
 from svsa.evaluation.tuning.judge import Judgment
 from svsa.evaluation.tuning.tuner import Candidate, Tuned
 from svsa.inputs.extras import __version__
+from svsa.inputs.nesting import load_json
 from svsa.runs.design_file import format_design
 
 _NOT_TUNED = "as before the tuning"
@@ -78,7 +78,7 @@ def read_checkpoint(path: Path) -> list[Candidate]:
     if not path.exists():
         return []
     whole, _, _ = path.read_text(encoding="utf-8").rpartition("\n")
-    read = [_read_candidate(json.loads(line)) for line in whole.splitlines()]
+    read = [_read_candidate(load_json(line)) for line in whole.splitlines()]
     return [one for one in read if one.stage != "validation"]
 
 

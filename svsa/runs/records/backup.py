@@ -12,6 +12,7 @@ from pathlib import Path
 
 from svsa.errors import StateError, SvsaError
 from svsa.inputs.extras import __version__
+from svsa.inputs.nesting import load_json
 
 MANIFEST = "svsa-backup.json"
 FORMAT = 1
@@ -124,7 +125,7 @@ def restore(archive: Path, folder: Path) -> str:
             stream = tar.extractfile(first) if first and first.name == MANIFEST else None
             if stream is None:
                 raise BackupError(f"{archive} is not an archive of `svsa backup`.")
-            manifest = json.load(stream)
+            manifest = load_json(stream.read())
             if manifest["format"] > FORMAT:
                 raise BackupError(
                     f"{archive} has format {manifest['format']} of svsa {manifest['svsa']}; this"
@@ -133,6 +134,6 @@ def restore(archive: Path, folder: Path) -> str:
             folder.mkdir(parents=True, exist_ok=True)
             # The filter rejects names that lead out of the folder.
             tar.extractall(folder, (one for one in tar if one.name != MANIFEST), filter="data")
-    except (OSError, tarfile.TarError, EOFError, ValueError, KeyError) as error:
+    except (OSError, tarfile.TarError, EOFError, ValueError, KeyError, TypeError) as error:
         raise BackupError(f"{archive} cannot be restored: {error}.") from None
     return str(manifest["svsa"])

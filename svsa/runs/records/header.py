@@ -17,6 +17,7 @@ from svsa.actuators.signals import CHANNELS, Channel
 from svsa.errors import ParameterError, SvsaError, Violation
 from svsa.inputs.checked import Checked, Number, Whole, quantity
 from svsa.inputs.extras import __version__
+from svsa.inputs.nesting import load_json
 from svsa.runs.configuration import Configuration
 from svsa.runs.records.former_words import FIELDS, translate_fields
 
@@ -184,8 +185,8 @@ def parse_header(text: str) -> RecordHeader:
         RecordError: If it is not a header.
     """
     try:
-        written = json.loads(text)
-    except (ValueError, RecursionError) as error:
+        written = load_json(text)
+    except ValueError as error:
         raise RecordError(f"not JSON ({error})") from None
     if not isinstance(written, dict):
         raise RecordError("not a JSON object")
@@ -200,7 +201,7 @@ def parse_header(text: str) -> RecordHeader:
         if "configuration" in written:
             written["configuration"] = translate_fields(written["configuration"], FIELDS)
         return RecordHeader(**written)
-    except (ParameterError, TypeError, ValueError, AttributeError, RecursionError) as error:
+    except (ParameterError, TypeError, ValueError, AttributeError) as error:
         raise RecordError(str(error)) from None
 
 

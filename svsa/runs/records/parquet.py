@@ -12,6 +12,7 @@ from typing import IO, Any, NamedTuple
 
 from svsa.errors import Fault
 from svsa.inputs import arrow as pa
+from svsa.inputs.nesting import load_json
 from svsa.runs.events import Event
 from svsa.runs.records.bench_start import START_FILE, BenchStart, dump_start
 from svsa.runs.records.former_words import translate_command
@@ -120,7 +121,7 @@ def unpack_parquet(content: bytes, folder: Path) -> None:
     try:
         inside = pa.parquet.read_metadata(io.BytesIO(content)).metadata or {}
         header = parse_header(inside[HEADER_KEY].decode())
-        lines = json.loads(inside[COMMANDS_KEY])
+        lines = load_json(inside[COMMANDS_KEY])
         commands = b"".join(write_command(line["tick"], line["command"]) for line in lines)
     except (pa.ArrowException, KeyError, TypeError, ValueError, OSError) as error:
         raise RecordError(f"The file is no recorded run of svsa: {error!r}.") from None
@@ -170,7 +171,7 @@ def read_commands(folder: Path) -> tuple[Commands, int]:
     commands: Commands = []
     for number, line in enumerate(content[:whole].splitlines(), 1):
         try:
-            written = json.loads(line)
+            written = load_json(line)
             command = translate_command(_check(written["command"], dict))
             commands.append((_check(written["tick"], int), command))
         except (ValueError, KeyError, TypeError) as error:

@@ -4,7 +4,7 @@ A prediction must be given before the run with which it is compared, and is fina
 set up. The first answer to a question is final, because its feedback contains the right answer.
 """
 
-import json
+import errno
 import logging
 from collections.abc import Sequence
 from glob import escape
@@ -14,6 +14,7 @@ from typing import Any
 
 from svsa.errors import StateError
 from svsa.inputs.checked import Checked, Flag, Number, Whole, quantity
+from svsa.inputs.nesting import load_json
 from svsa.inputs.set_aside import set_aside
 from svsa.runs.records import former_words
 from svsa.runs.records.former_words import translate_fields
@@ -261,8 +262,13 @@ class ProgressStore:
                 content = one.read_bytes()
             except FileNotFoundError:
                 continue
+            except OSError as error:
+                if error.errno not in (errno.EISDIR, errno.ELOOP):
+                    raise
+                _report_damage(one, error)
+                continue
             try:
-                exercises = json.loads(content).get("exercises", {}).items()
+                exercises = load_json(content).get("exercises", {}).items()
                 return PersonProgress(exercises={name: _translate(at) for name, at in exercises})
             except (ValueError, AttributeError, TypeError) as error:
                 _report_damage(one, error)

@@ -40,7 +40,7 @@ class Book(ClassFolder[Grade]):
     def find_refusal(self, submission: str) -> str:
         """Return why the latest grading of a submission failed, or an empty text."""
         path = self.others / f"{submission}.txt"
-        return path.read_text(encoding="utf-8") if path.exists() else ""
+        return path.read_text(encoding="utf-8", errors="replace") if path.is_file() else ""
 
     def list(self) -> list[Grade]:
         """Return all grades, sorted by exercise and student."""

@@ -109,8 +109,9 @@ class Board(ClassFolder[Entry]):
         return entry
 
     def list_missing(self) -> list[str]:
-        """List the names of installed laws without an entry."""
-        return [name for name in list_law_names() if self.find(name) is None]
+        """List the names of installed laws without an entry, or with a damaged one."""
+        keys = {entry.key for entry in self.list()}
+        return [name for name in list_law_names() if name not in keys]
 
     def keep(self, entry: Entry, torques: bytes = b"") -> Entry:
         """Save an entry; `torques` are those of a submitted law's worst run, float64 (ticks, 2), as
