@@ -98,6 +98,15 @@ class BoundHttp(H11Protocol):
         if self.conn.their_state is h11.IDLE:
             self._admission.wait(self.transport)
 
+    def handle_websocket_upgrade(self, event: h11.Request) -> None:
+        """Begin a WebSocket, unless `websockets` would fail while it rejects the handshake."""
+        names = (b"connection", b"upgrade")
+        for name, value in self.headers:
+            if (name in names or name.startswith(b"sec-websocket-")) and not value.isascii():
+                self.send_400_response(f"The header {name.decode('ascii')} is not ASCII.")
+                return
+        super().handle_websocket_upgrade(event)
+
     def _should_upgrade(self) -> bool:
         return self._has_room and super()._should_upgrade()
 
