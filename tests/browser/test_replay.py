@@ -240,6 +240,9 @@ def test_run_describes_itself(opened: Opened, exported: Path) -> None:
     watch.check(exported)
 
 
-def test_translators_leave_the_3d_view(opened: Opened) -> None:
+def test_translators_leave_the_3d_view_and_its_labels(opened: Opened) -> None:
     view = opened.page.locator("iframe")
     assert view.evaluate("view => view.contentDocument.documentElement.translate") is False
+    labels = opened.page.locator("span[data-text]")
+    expect(labels.first).to_be_attached()
+    assert labels.evaluate_all("labels => labels.filter((label) => label.translate)") == []

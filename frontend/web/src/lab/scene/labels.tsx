@@ -140,6 +140,7 @@ class Sheet {
     const span = known ?? this.sheet.appendChild(document.createElement("span"));
     const [base, index] = text.split("_");
     span.dataset.text = text;
+    span.translate = false;
     span.replaceChildren(base as string);
     if (index) span.appendChild(document.createElement("sub")).textContent = index;
     this.#spans.set(key, span);
