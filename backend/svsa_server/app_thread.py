@@ -18,6 +18,8 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 T = TypeVar("T")
 
 BEAT_S = 0.1
+MAX_BEGINNING = 2
+"""Calls that begin in the application at once: no more than these are before a stop."""
 STOP_S = 2.0
 """Time in which the thread cancels the remaining tasks and ends, s."""
 
@@ -97,6 +99,7 @@ class AppThread:
         self._app = app
         self._loop = asyncio.new_event_loop()
         self._beat_s = time.monotonic()
+        self._places = asyncio.Semaphore(MAX_BEGINNING)
         self._thread = threading.Thread(target=self._run, name="sessions", daemon=True)
 
     @property
@@ -107,6 +110,25 @@ class AppThread:
     def start(self) -> None:
         """Start the thread."""
         self._thread.start()
+
+    async def wait_for_place(self, longest_s: float) -> None:
+        """Wait until few calls begin in the application, at most `longest_s` s.
+
+        A call has begun, and its place is free, when it waits for the first time.
+        """
+        with contextlib.suppress(TimeoutError):
+            async with asyncio.timeout(longest_s):
+                await self._places.acquire()
+            outer = asyncio.get_running_loop()
+
+            def free() -> None:
+                outer.call_soon_threadsafe(self._places.release)
+
+            def add() -> None:
+                self._loop.call_soon(free)
+
+            # `call` follows at once: its event loop adds the first step of the call, then `free`.
+            outer.call_soon(lambda: self._loop.call_soon_threadsafe(add))
 
     def call(self, scope: Scope, bridge: CallBridge) -> asyncio.Future[None]:
         """Call the application in its event loop; cancelling the future cancels the call."""

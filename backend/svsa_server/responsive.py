@@ -19,6 +19,7 @@ from svsa.runs.session.session import Session
 from svsa_server.access.admission import HEALTH
 from svsa_server.access.guard import AccessGuard, find_path
 from svsa_server.access.owned import Kind, Owner
+from svsa_server.access.rates import is_stop
 from svsa_server.app_thread import AppThread, CallBridge
 from svsa_server.problems import answer_problem
 from svsa_server.routing import API
@@ -67,6 +68,8 @@ class ResponsiveApp:
         await serve(scope, receive, send)
 
     async def _serve(self, scope: Scope, receive: Receive, send: Send) -> None:
+        if not is_stop(scope.get("method", ""), find_path(scope)):
+            await self._thread.wait_for_place(SILENT_S)
         bridge = CallBridge(receive, send)
         asked = self._thread.call(scope, bridge)
         longest_s = STOP_SILENT_S if _is_urgent(scope) else SILENT_S

@@ -2,6 +2,7 @@
 
 import contextlib
 import os
+import signal
 import socket
 import subprocess
 import sys
@@ -70,6 +71,30 @@ def test_flood_leaves_the_stops_answered_and_the_log_short(
     assert httpx.get(lab.url, trust_env=False, timeout=PATIENCE_S).is_success
     assert "Traceback" not in log.read_text()
     assert log.stat().st_size < MAX_LOG_BYTES
+
+
+def test_stop_is_carried_out_before_most_of_the_requests_that_arrived_earlier() -> None:
+    """Their answers show whether the session was paused before: no clock is needed."""
+    with run_lab(silence_s="600", max_connections="1000") as lab, contextlib.ExitStack() as stack:
+        assert lab.process is not None
+        lab.client.post(lab.session + "/start").raise_for_status()
+        read = build_head(lab, "GET", lab.session, "Connection: close\r\n")
+        stop = build_head(lab, "POST", lab.session + "/pause", "Connection: close\r\n")
+        lab.process.send_signal(signal.SIGSTOP)
+        waiting = [stack.enter_context(open_connection(lab)) for _ in range(FLOOD)]
+        for connection in waiting:
+            connection.sendall(read)
+        last = stack.enter_context(open_connection(lab))
+        last.sendall(stop)
+        lab.process.send_signal(signal.SIGCONT)
+        answers = [read_all(connection) for connection in (*waiting, last)]
+        assert all(b" 200 OK" in answer for answer in answers)
+        running = sum(b'"status":"running"' in answer for answer in answers)
+        assert running < FLOOD // 2
+
+
+def read_all(connection: socket.socket) -> bytes:
+    return b"".join(iter(lambda: connection.recv(65536), b""))
 
 
 def count_descriptors(lab: Lab) -> int:
