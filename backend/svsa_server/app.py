@@ -53,7 +53,7 @@ from svsa_server.sessions.indexing import Indexing
 from svsa_server.sessions.laboratory import SHARED_SESSION, Laboratory, build_shared_session
 from svsa_server.sessions.lock import run_waiting
 from svsa_server.sessions.ownership import find_owner
-from svsa_server.sessions.preparation import rehearse
+from svsa_server.sessions.preparation import start_rehearsal
 from svsa_server.sessions.quota import DiskQuota
 from svsa_server.sessions.recording import Recordings, open_catalogue
 
@@ -244,8 +244,7 @@ async def _live(app: FastAPI) -> AsyncIterator[None]:
         asyncio.create_task(app.state.disk.run()),
     ]
     if shared.plant == "simulated":
-        rehearsed = asyncio.to_thread(rehearse, shared.run.configuration)
-        tasks.append(asyncio.create_task(rehearsed))
+        start_rehearsal(shared.run.configuration)
     if app.state.lti is not None:
         from svsa_server.lti.scores import ScoreSender
 

@@ -31,7 +31,7 @@ from svsa_server.schemas.lab.opening import (
 from svsa_server.sessions.evaluated_design import build_trial
 from svsa_server.sessions.hosted import HostedSession
 from svsa_server.sessions.laboratory import Laboratory
-from svsa_server.sessions.preparation import rehearse
+from svsa_server.sessions.preparation import start_rehearsal
 
 LOAD_S = 1.0
 """Onset of the load in a session that shows a design, s."""
@@ -61,7 +61,7 @@ async def open_session(app: FastAPI, wanted: SessionRequest, owner: str) -> Host
         case FromRanking():
             scenario = find_scenario(wanted.scenario)
             shown = await asyncio.to_thread(build_shown_run, scenario, wanted.row)
-            await asyncio.to_thread(rehearse, shown.configuration)
+            await asyncio.wrap_future(start_rehearsal(shown.configuration))
             return laboratory.create(shown.configuration, owner, shown.alone)
         case FromActuator():
             for law in {wanted.law, *(lane.law for lane in wanted.comparisons)}:
@@ -83,7 +83,7 @@ async def open_session(app: FastAPI, wanted: SessionRequest, owner: str) -> Host
             configuration = tried.changed(loads=(load,), comparisons=())
         case FromFalsification():
             configuration = _build_found(app.state.jobs.get(wanted.id, "falsification"))
-    await asyncio.to_thread(rehearse, configuration)
+    await asyncio.wrap_future(start_rehearsal(configuration))
     return laboratory.create(configuration, owner)
 
 

@@ -6,8 +6,9 @@ session then waits neither for the compiler nor for the disk.
 """
 
 import re
+import threading
 from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Future
 from contextvars import ContextVar
 from typing import NamedTuple
 
@@ -28,7 +29,6 @@ _WITHOUT_CODE = {"arm", "joint2", "loads", "position", "sampling", "seed", "stif
 """Fields whose values the same code reads; those of an arm and of its second joint are listed
 separately."""
 
-_threads = ThreadPoolExecutor(4, "preparation")
 _prepared: set[tuple[str, str]] = set()
 
 
@@ -69,6 +69,23 @@ def rehearse(configuration: Configuration, commands: Sequence[Command] = ()) -> 
     _prepared.add(_describe_form(configuration, commands))
 
 
+def start_rehearsal(configuration: Configuration, commands: Sequence[Command] = ()) -> Future[None]:
+    """Start `rehearse` in a thread for which the end of the server does not wait."""
+    work: Future[None] = Future()
+    work.set_running_or_notify_cancel()  # a caller that no longer waits cannot cancel it
+
+    def run() -> None:
+        try:
+            rehearse(configuration, commands)
+        except Exception as error:
+            work.set_exception(error)
+        else:
+            work.set_result(None)
+
+    threading.Thread(target=run, name="preparation", daemon=True).start()
+    return work
+
+
 def prepare_change(configuration: Configuration, commands: Sequence[Command]) -> None:
     """Load the code of a change; other tasks run meanwhile. Outside of a request, do nothing.
 
@@ -89,7 +106,7 @@ def prepare_change(configuration: Configuration, commands: Sequence[Command]) ->
     request = conditions.get()
     is_bound = request is not None and request.read_revision is not None
     revision = request.read_revision() if request and request.read_revision else ""
-    work = _threads.submit(rehearse, configuration, commands)
+    work = start_rehearsal(configuration, commands)
     while not work.done():
         pause(POLL_S)
     # The change itself reports an error.
