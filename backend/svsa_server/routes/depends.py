@@ -2,7 +2,6 @@
 
 import time
 from collections.abc import Callable
-from functools import partial
 from typing import Annotated, Any
 from urllib.parse import quote
 
@@ -107,10 +106,13 @@ async def find_session(
         found.lease.note_command(client, now)
 
         def check() -> None:
-            laboratory.get(session)
-            found.lease.check(client)
+            # By name: contexts of requests must not keep the memory of sessions that have ended.
+            laboratory.get(session).lease.check(client)
 
-        conditions.set(Conditions(check, partial(_check_revision, found)))
+        def check_revision(revision: str) -> None:
+            _check_revision(laboratory.get(session), revision)
+
+        conditions.set(Conditions(check, check_revision))
     return found
 
 
@@ -118,6 +120,7 @@ NamedSession = Annotated[HostedSession, Depends(find_session)]
 
 
 async def check_unchanged(
+    connection: HTTPConnection,
     hosted: NamedSession,
     if_match: Annotated[
         str | None,
@@ -129,7 +132,8 @@ async def check_unchanged(
     if if_match is None or request is None or (revision := if_match.strip('"')) == "*":
         return
     _check_revision(hosted, revision)
-    conditions.set(request._replace(read_revision=lambda: hosted.revision))
+    laboratory, name = connection.app.state.laboratory, hosted.session.name
+    conditions.set(request._replace(read_revision=lambda: laboratory.get(name).revision))
 
 
 def _check_revision(hosted: HostedSession, revision: str) -> None:

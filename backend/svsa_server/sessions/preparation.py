@@ -70,8 +70,11 @@ def rehearse(configuration: Configuration, commands: Sequence[Command] = ()) -> 
 
 
 def start_rehearsal(configuration: Configuration, commands: Sequence[Command] = ()) -> Future[None]:
-    """Start `rehearse` in a thread for which the end of the server does not wait."""
+    """Start `rehearse` in a thread for which the end of the server does not wait, if needed."""
     work: Future[None] = Future()
+    if _describe_form(configuration, commands) in _prepared:
+        work.set_result(None)
+        return work
     work.set_running_or_notify_cancel()  # a caller that no longer waits cannot cancel it
 
     def run() -> None:
