@@ -63,8 +63,9 @@ def test_first_visit_has_its_samples_within_the_bytes_of_15_s(page: Page, lab: L
         assert len(sockets) == 1, "the history needs no second connection"
 
         loop = page.locator(".status-cell.is-loop")
+        page.evaluate(WATCH, "Slow connection: receiving …")
         link.is_open.clear()
-        expect(status).to_contain_text("Slow connection: receiving …")
+        wait_until(lambda: page.evaluate("wasShown"))
         expect(loop).not_to_contain_text("real time")
         link.is_open.set()
         expect(status).to_contain_text("Live")

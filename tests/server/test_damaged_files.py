@@ -14,6 +14,7 @@ from svsa.evaluation.studies.file import read_study
 from svsa.evaluation.studies.store import keep_study
 from svsa.teaching.class_folder import keep_secret
 from svsa_server.access.class_keys import ClassKeys
+from tests.exhaustive import exhaust
 from tests.lab_in_process import run_lab_in_process
 from tests.server.access.classroom import SHARED, Classroom, run_class
 from tests.server.jobs.test_saved_jobs import save
@@ -86,11 +87,11 @@ def filled(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str, list[st
     return folder, token, runs
 
 
-@pytest.mark.parametrize("damage", DAMAGES.values(), ids=DAMAGES)
+@pytest.mark.parametrize("damage", exhaust(DAMAGES, ["random", "deep lists"]))
 def test_only_what_is_damaged_is_lost(
     filled: tuple[Path, str, list[str]],
     tmp_path: Path,
-    damage: Callable[[Path, bytes], object],
+    damage: str,
     capsys: pytest.CaptureFixture[str],
     caplog: pytest.LogCaptureFixture,
 ) -> None:
@@ -98,7 +99,7 @@ def test_only_what_is_damaged_is_lost(
     folder = Path(shutil.copytree(source, tmp_path / "data"))
     for path in DAMAGED:
         place = folder / path.replace("{run}", runs[0])
-        damage(place, place.read_bytes())
+        DAMAGES[damage](place, place.read_bytes())
     with run_lab_in_process(data=str(folder), classroom="1") as lab:
         keys, _ = ClassKeys.open(folder)
         assert keys.is_instructor(token)
