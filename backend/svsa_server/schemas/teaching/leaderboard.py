@@ -14,7 +14,7 @@ class LawSubmission(Checked):
     """A law to be measured in the season."""
 
     name: EntryName = quantity("", "Name of the entry on the leaderboard", max_length=MAX_NAME)
-    law: LawText = quantity("", "Text of its Python file: see docs/grading.md")
+    law: LawText = quantity("", "Text of its Python file, which defines `law` or `build`")
     author: Author = quantity("", "Author; in a class the caller", max_length=MAX_NAME, default="")
 
 
