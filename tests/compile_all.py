@@ -21,6 +21,7 @@ from svsa.cli import prepare
 from svsa.control.installed import PAPERS_LAW, list_law_names
 from svsa.evaluation.ranking.test_set import build_test_trial
 from svsa.evaluation.timing.scipy_comparison import compare_with_scipy
+from svsa.evaluation.tuning.judge import find_noise_limit
 from svsa.hardware.emulator.experiment import LockstepBench
 from svsa.runs.batch import find_alike, run_configurations, run_group
 from svsa.runs.paper import FIGURES
@@ -82,21 +83,18 @@ def compile_identification() -> None:
     identify(build_run(configuration, play(configuration, [], 6.5)[0]))
 
 
-def compile_batches() -> None:
-    """Compile batches with all effects, and with those of the rig for the laws that are shown; for
-    `make test-all` also with none, and for each law.
+def compile_batches(laws: Iterable[str]) -> None:
+    """Compile batches with all effects and with none, for laws with the effects of the rig, and the
+    noise limit of tunings.
     """
-    ideal: tuple[str, ...] = ()
-    laws: Iterable[str] = SHOWN_IN_BATCHES
-    if EXHAUSTIVE in sys.argv:
-        ideal, laws = ("ndobc", "fl", "fl_integral"), list_law_names()
     for law, effects in (
         ("ndobc", EVERY_EFFECT),
-        *((law, svsa.IDEAL) for law in ideal),
+        *((law, svsa.IDEAL) for law in SHOWN_IN_BATCHES),
         *((law, svsa.RIG) for law in laws),
     ):
         configuration = FIGURES["4a"].build_configuration(law).changed(effects=effects, seed=7)
         run_configurations([configuration], TICKS * configuration.sampling.period_s)
+    find_noise_limit()
 
 
 def compile_trials() -> None:
@@ -110,7 +108,7 @@ def compile_trials() -> None:
 
 if __name__ == "__main__":
     if BATCHES in sys.argv:
-        compile_batches()
+        compile_batches(list_law_names() if EXHAUSTIVE in sys.argv else SHOWN_IN_BATCHES)
         compile_trials()
     else:
         main()

@@ -107,7 +107,6 @@ def test_arm_is_opened_with_an_actuator_in_each_joint(page: Page, still_lab: Lab
     expect(page.get_by_role("alert").filter(visible=True)).to_have_count(0)
 
 
-@pytest.mark.smoke
 @pytest.mark.usefixtures("without_3d")
 def test_tip_carries_a_mass_and_is_pushed_by_mouse_and_keys(
     page: Page, still_lab: Lab, arm: Arm

@@ -36,7 +36,6 @@ def find_switch(page: Page) -> Locator:
     return page.get_by_role("switch", name=re.compile("^Compare with"))
 
 
-@pytest.mark.smoke
 def test_fl_added_to_ndobc_keeps_the_error_that_ndobc_removes(page: Page, still_lab: Lab) -> None:
     open_page(page, still_lab)
     switch = find_switch(page)

@@ -82,7 +82,6 @@ def test_pole_is_dragged_predicted_applied_and_undone_step_by_step(
     assert real_parts(still_lab) == pytest.approx([-60.0] * 4, abs=0.1)
 
 
-@pytest.mark.smoke
 def test_unstable_poles_have_a_reason_and_cannot_be_applied(page: Page, panel: Locator) -> None:
     drag(page, panel.get_by_role("slider", name="Position pole 4 of 4"), 100, -60)
     verdict = panel.get_by_role("status", name="Verdict: Unsuitable")

@@ -153,7 +153,6 @@ def read_place(cursor: Locator) -> float:
     return float(cursor.get_attribute("aria-valuenow") or "nan")
 
 
-@pytest.mark.smoke
 def test_cursors_measure_the_samples_between_them(page: Page) -> None:
     page.get_by_role("button", name="Cursors").click()
     first = page.get_by_role("slider", name="Cursor A")

@@ -13,7 +13,6 @@ from tests.lab import Lab
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
 
 
-@pytest.mark.smoke
 def test_table_is_sorted_selected_from_and_opens_a_run(page: Page, still_lab: Lab) -> None:
     open_page(page, still_lab)
     go_to_page(page, "Ranking")

@@ -167,11 +167,17 @@ def summarize(state: dict) -> dict:
 @pytest.mark.parametrize(
     ("request_body", "operate"),
     [
-        ({"actuator": "qbmove", "law": "ndobc", "seed": 7}, operate_actuator),
-        ({"arm": "rods", "seed": 7}, operate_arm),
-        ({"arm": "maccepa", "actuators": ["maccepa", "qbmove"]}, operate_tip),
+        pytest.param(
+            {"actuator": "qbmove", "law": "ndobc", "seed": 7}, operate_actuator, id="actuator"
+        ),
+        pytest.param({"arm": "rods", "seed": 7}, operate_arm, id="arm"),
+        pytest.param(
+            {"arm": "maccepa", "actuators": ["maccepa", "qbmove"]},
+            operate_tip,
+            id="tip",
+            marks=pytest.mark.exhaustive,
+        ),
     ],
-    ids=["actuator", "arm", "tip"],
 )
 def test_script_repeats_the_run_of_any_actuator_and_arm(
     stand: tuple[str, Path], request_body: dict, operate: Callable[[RemoteSession], None]

@@ -181,6 +181,7 @@ def is_at_once(batch: Batch) -> bool:
     return batch.control is not None
 
 
+@pytest.mark.exhaustive
 def test_law_that_branches_on_its_state_is_called_for_one_run_after_the_other() -> None:
     """Other parameters, including integers, in each; one ends before the others."""
     configurations = [

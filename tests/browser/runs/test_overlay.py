@@ -38,7 +38,6 @@ def test_numbers_of_an_overlay_are_next_to_complete_names_on_a_phone(
     assert moved["x"] == pytest.approx(first["x"], abs=1), "the name stays next to its numbers"
 
 
-@pytest.mark.smoke
 def test_runs_are_aligned_at_their_load(page: Page, lab: Lab, runs: tuple[str, str]) -> None:
     open_list(page, lab)
     overlay = page.get_by_role("button", name="Overlay runs")

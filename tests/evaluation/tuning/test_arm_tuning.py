@@ -86,7 +86,7 @@ def test_candidate_that_is_loud_or_faults_at_rest_is_not_run():
     assert LOUD < problem.judge((), "ndobc", loud).cost < NO_REST
 
 
-@pytest.mark.long
+@pytest.mark.exhaustive
 def test_tuning_lowers_the_cost_of_an_arm():
     controller = ArmController("pd", True)
     problem = build_arm_problem(controller)

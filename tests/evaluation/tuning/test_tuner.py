@@ -185,6 +185,7 @@ def test_file_names_its_source_and_configures_a_run(tmp_path):
         assert np.array_equal(here.samples, there.samples)
 
 
+@pytest.mark.usefixtures("planted")
 def test_command_writes_a_file_or_prints_all_candidates(tmp_path):
     path = tmp_path / "mine.toml"
     common = ["tune", LAW, "--budget", "2", "--seed", "1", "--trials", "2", "--validation", "2"]

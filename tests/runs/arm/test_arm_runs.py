@@ -12,7 +12,6 @@ from svsa.actuators.arm.parameters import RODS, build_rods
 from svsa.control.installed import get_law, list_law_names
 from svsa.runs.arm.experiment import build_arm_experiment
 from svsa.runs.arm.run import ArmRun
-from tests.exhaustive import exhaust
 
 LOAD = svsa.TipMass(mass_kg=0.1, start_s=5.0)
 BEFORE_S, AFTER_S = (2.0, 5.0), (8.0, 20.0)
@@ -234,8 +233,8 @@ def test_fault_names_its_joint_and_ends_both_joints():
     assert "Ended early: Joint 2" in repr(result)
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("actuator", exhaust(["awas2", "leaf_spring", "sea"], ["leaf_spring"]))
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("actuator", ["awas2", "leaf_spring", "sea"])
 def test_other_actuators_move_the_arm(actuator):
     mixed = svsa.simulate_arm(joint2={"actuator": actuator}, duration_s=8.0)
     assert mixed.fault is None

@@ -55,7 +55,7 @@ def test_wall_never_pulls_and_never_acts_before_contact(direction, sigma, wall_n
     assert np.abs(force).max() > 1.0, "the tip must reach the wall"
 
 
-@pytest.mark.long
+@pytest.mark.exhaustive
 @given(**CASES)
 def test_energy_changes_by_the_work_of_wall_and_motors(direction, sigma, wall_n_per_m):
     """Without damping of actuators and wall: motors work by u Δθ in each period, exactly."""

@@ -10,6 +10,7 @@ from svsa_server.commands import compiling
 from svsa_server.commands.compiling import compile_laws
 from svsa_server.compiled_loops import is_compiled_for
 from tests.benchmarks.attacks import read_memory_mb
+from tests.exhaustive import exhaust
 from tests.lab import run_lab
 from tests.waiting import is_running, wait_until
 
@@ -87,7 +88,7 @@ def test_server_that_has_compiled_is_as_small_as_one_that_has_loaded_its_code(tm
     assert sizes_mb[0] - sizes_mb[1] < 40.0
 
 
-@pytest.mark.parametrize("kind", ["first law", "other laws", "request"])
+@pytest.mark.parametrize("kind", exhaust(["first law", "other laws", "request"], ["first law"]))
 def test_compiling_process_ends_with_a_killed_server(kind, tmp_path):
     ready = tmp_path / "pid"
     child = f"import os; open({str(ready)!r}, 'w').write(f'{{os.getpid()}};'); {WAIT}"

@@ -33,6 +33,7 @@ def open_arm(lab: Lab, **wanted: object) -> dict:
     return answer.json()
 
 
+@pytest.mark.exhaustive
 def test_every_arm_of_the_list_opens_with_its_actuators(lab: Lab) -> None:
     listed = lab.client.get("/api/v1/arms").json()
     assert [one["name"] for one in listed] == ["rods", "maccepa"]
