@@ -5,7 +5,7 @@ PORT ?= 8000
 PAGE := backend/svsa_server/page/index.html
 GUIDE := backend/svsa_server/guide
 PAGE_SOURCES := $(shell find frontend/web -path '*/node_modules' -prune -o -type f -print) \
-  frontend/scene/svsa_scene/cameras.json
+  frontend/scene/svsa_scene/cameras.json docs/openapi.json
 UV := 0.13.9
 LOCKED_EXTRAS := server client bench plot nidaqmx pandas xarray cluster lti gym
 # Each test module in one process, in the order of tests/conftest.py: the browser tests are last.

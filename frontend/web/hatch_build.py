@@ -34,6 +34,8 @@ _SOURCES = (
     "docs.html",
     "replay.html",
     "vite.config.ts",
+    "operations.ts",
+    "../../docs/openapi.json",
     "compress.mjs",
     "tsconfig.json",
     "package.json",

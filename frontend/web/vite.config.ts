@@ -1,5 +1,7 @@
 import type { Plugin } from "vite";
 import { defineConfig } from "vitest/config";
+import schema from "../../docs/openapi.json" with { type: "json" };
+import { tabulate } from "./operations.ts";
 
 /** The lab for `npm run dev`: `svsa serve` with its default port. */
 const SERVER = "http://127.0.0.1:8000";
@@ -70,6 +72,7 @@ function shortPreload(): Plugin {
 /** `vite build` makes the lab's page; `vite build --mode replay` the page of an exported run. */
 export default defineConfig(({ mode }) => ({
   base: "./",
+  define: { __OPERATIONS__: JSON.stringify(tabulate(schema)) },
   plugins: mode === "replay" ? [inlineAssets()] : [newFontsOnly(), shortPreload()],
   build: {
     outDir: "../../backend/svsa_server/page",

@@ -1,5 +1,12 @@
-import { armBench, clearBench, pause, restartBench, start } from "../core/api/client";
-import type { BenchState, SessionState } from "../core/api/types";
+import {
+  armBench,
+  clearBench,
+  pause,
+  restartBench,
+  type SessionRequest,
+  start,
+} from "../core/api/client";
+import type { BenchState } from "../core/api/types";
 import { perform } from "../core/state/actions";
 import { mayCommand } from "../core/state/control";
 import { isLive } from "../core/state/session";
@@ -11,7 +18,7 @@ interface Action {
   name: Exclude<keyof AllowedCommands, "home">;
   label: string;
   hint: string;
-  send: () => Promise<SessionState>;
+  send: SessionRequest;
 }
 
 const ACTIONS: readonly Action[] = [

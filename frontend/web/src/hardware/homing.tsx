@@ -33,7 +33,7 @@ function Confirmation({ axis, isAllowed }: { axis: Axis; isAllowed: boolean }) {
   const id = useId();
   const submit = (event: Event) => {
     event.preventDefault();
-    void perform("bench.home", () => confirmHome(axis, personName.peek().trim()));
+    void perform("bench.home", confirmHome(axis, personName.peek().trim()));
   };
   return (
     <form class="homing-form" onSubmit={submit}>

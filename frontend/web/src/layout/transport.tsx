@@ -45,7 +45,7 @@ export function FigurePicker({ state }: { state: SessionState }) {
           type="button"
           class="button"
           title={text.figures.does[figure]}
-          onClick={() => void perform("session", () => run(figure, state))}
+          onClick={() => void perform("session", run(figure, state))}
         >
           <FigureName figure={figure} />
         </button>
@@ -66,7 +66,7 @@ function SpeedPicker({ speed }: { speed: Speed }) {
         onChange={(event) => {
           const chosen = event.currentTarget.value;
           const factor = chosen === "max" ? chosen : Number(chosen);
-          void perform("session", () => putSpeed(factor));
+          void perform("session", putSpeed(factor));
         }}
       >
         {speeds.map((factor) => (
@@ -91,7 +91,7 @@ function Stepper({ state }: { state: SessionState }) {
         class="button"
         disabled={!isReady}
         title={text.transport.stepHint}
-        onClick={() => void perform("session", () => step(ticks))}
+        onClick={() => void perform("session", step(ticks))}
       >
         {text.transport.step}
       </button>

@@ -5,7 +5,6 @@ import type { Configuration, SessionState } from "./types";
 
 export type ArmSetup = NonNullable<Configuration["arm"]>;
 export type ArmRow = components["schemas"]["NamedArmState"];
-export type Joint = 1 | 2;
 /** Fields that are left out keep their values. */
 export type ArmPatch = Partial<Omit<ArmSetup, "joint2">>;
 

@@ -59,8 +59,9 @@ export async function request(
   body?: unknown,
   timeoutMs = DEFAULT_TIMEOUT_MS,
   extraHeaders: Readonly<Record<string, string>> = {},
+  hasKey = method !== "get",
 ): Promise<unknown> {
-  const requestId = method === "get" ? null : randomId();
+  const requestId = hasKey ? randomId() : null;
   const headers: Record<string, string> = { ...extraHeaders, [CLIENT_HEADER]: client };
   if (requestId !== null) headers[REQUEST_HEADER] = requestId;
   // The only bodies of text are CSV files.

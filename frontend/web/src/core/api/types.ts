@@ -69,17 +69,7 @@ export type RequestOf<T> = T extends unknown
 export type Load = RequestOf<LoadRow["load"]>;
 
 export type Method = "get" | "put" | "post" | "patch" | "delete";
-type SessionPrefix = "/api/v1/sessions/{session}";
-type PathBelowSession<P> = P extends `${SessionPrefix}${infer Rest}` ? Rest : never;
-/** Path below a session, such as "/position". */
-export type SessionPath = PathBelowSession<keyof paths>;
-
-type Operation<M extends Method, P extends SessionPath> = paths[`${SessionPrefix}${P}`][M];
-/** Arguments of a request: none, or one body. */
-export type Body<M extends Method, P extends SessionPath> =
-  Operation<M, P> extends { requestBody: { content: { "application/json": infer B } } }
-    ? [body: RequestOf<B>]
-    : [];
+export type Joint = 1 | 2;
 
 export type RunSummary = Schemas["RunSummary"];
 export type MeasuredWindow = Schemas["MeasuredWindow"];

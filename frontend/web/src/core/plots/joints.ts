@@ -1,5 +1,5 @@
 /** The curves of one joint of an arm: those of its lanes, under the names of the controllers. */
-import type { Joint } from "../api/arm";
+import type { Joint } from "../api/types";
 import { jointOfLane, nameWithoutJoint } from "../state/joints";
 import type { LaneSegments } from "../state/lanes";
 import type { ChannelName } from "./channels";

@@ -1,6 +1,6 @@
 import { computed } from "@preact/signals";
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
-import type { Joint } from "../api/arm";
+import type { Joint } from "../api/types";
 import { EquationButton } from "../equations/equation";
 import type { LaneSegments } from "../state/lanes";
 import { lawOf } from "../state/laws";

@@ -1,7 +1,7 @@
 /** The list of plots, which shows whole plots only and scrolls to the others. */
 import type { RefObject } from "preact";
 import { useEffect, useRef } from "preact/hooks";
-import type { Joint } from "../api/arm";
+import type { Joint } from "../api/types";
 import { shownJoints } from "../state/arm";
 import { isLive } from "../state/session";
 import { text } from "../text/en";

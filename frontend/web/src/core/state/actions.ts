@@ -3,7 +3,7 @@
  * rejection.
  */
 import { type Signal, signal } from "@preact/signals";
-import { expectRevision, lastConfirmed, readState } from "../api/client";
+import { lastConfirmed, readState, type SessionRequest } from "../api/client";
 import {
   ChangedError,
   LockedError,
@@ -11,8 +11,10 @@ import {
   RefusedError,
   UnansweredError,
 } from "../api/errors";
-import type { SessionState } from "../api/types";
+import { Edit } from "../api/operations";
+import type { Joint, SessionState } from "../api/types";
 import { text } from "../text/en";
+import { chosenJoint } from "./arm";
 import { describeChange, isSame } from "./conflicts";
 import { explainRefusal } from "./refusal";
 import { acceptState, phase, session } from "./session";
@@ -52,14 +54,14 @@ export const describeError = (error: unknown): string =>
  * client has set the same value.
  */
 async function sendUnlessChanged(
-  request: () => Promise<SessionState>,
+  request: SessionRequest,
   base: SessionState | null,
+  joint: Joint | null,
 ): Promise<SessionState> {
   let known = base;
   for (let left = MAX_TRIES; ; left--) {
-    expectRevision(known?.revision ?? null);
     try {
-      return await request();
+      return await request(new Edit(joint, { revision: known?.revision ?? null }));
     } catch (error) {
       if (!(error instanceof ChangedError)) throw error;
       const now = await readState();
@@ -75,16 +77,17 @@ async function sendUnlessChanged(
 
 /**
  * Send a request for a control; resolves when the page shows the state of the server. base: the
- * state that the user saw, if not the current one.
+ * state that the user saw, if not the current one. joint: that on which the request acts.
  */
 export async function perform(
   control: string,
-  request: () => Promise<SessionState>,
+  request: SessionRequest,
   base: SessionState | null = session.peek(),
+  joint: Joint | null = chosenJoint.peek(),
 ): Promise<boolean> {
   problem.value = null;
   try {
-    acceptState(await sendUnlessChanged(request, base));
+    acceptState(await sendUnlessChanged(request, base, joint));
     return true;
   } catch (error) {
     if (error instanceof LockedError) phase.value = "locked";
@@ -93,7 +96,7 @@ export async function perform(
         ? {
             control,
             message: describeChange(error.path, base, session.peek()),
-            retry: () => perform(control, request),
+            retry: () => perform(control, request, undefined, joint),
           }
         : { control, message: explain(error), isRefused: error instanceof RefusedError };
     return false;

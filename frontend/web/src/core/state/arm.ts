@@ -1,8 +1,6 @@
 /** The joint of an arm to which settings and plots of the page belong. */
 import { computed, signal } from "@preact/signals";
-import type { Joint } from "../api/arm";
-import { setRequestJoint } from "../api/client";
-import type { SessionState } from "../api/types";
+import type { Joint, SessionState } from "../api/types";
 import { type Armed, armOf, settingsOfJoint } from "./joints";
 import { session } from "./session";
 
@@ -13,10 +11,10 @@ export const jointChoice = signal<JointChoice>("both");
 /** The joint of the settings on the page: with both joints, those of joint 1 are shown. */
 export const settingsJoint = computed<Joint>(() => (jointChoice.value === "2" ? 2 : 1));
 
-export function chooseJoint(choice: JointChoice): void {
-  jointChoice.value = choice;
-  setRequestJoint(choice === "both" ? null : (Number(choice) as Joint));
-}
+/** The joint that commands of the page change; null for both, and for a single joint. */
+export const chosenJoint = computed<Joint | null>(() =>
+  jointChoice.value === "both" ? null : (Number(jointChoice.value) as Joint),
+);
 
 export const isArm = computed(() => session.value !== null && armOf(session.value) !== null);
 
@@ -42,6 +40,5 @@ export function areJointsDifferent(
 /** The joints whose plots are shown; null for a single joint. */
 export const shownJoints = computed<readonly Joint[] | null>(() => {
   if (!isArm.value) return null;
-  const choice = jointChoice.value;
-  return choice === "both" ? [1, 2] : [Number(choice) as Joint];
+  return chosenJoint.value === null ? [1, 2] : [chosenJoint.value];
 });

@@ -33,7 +33,7 @@ export function toggleRecording({ recording }: SessionState): Promise<boolean> {
 
 export function toggleCompare(state: SessionState): Promise<boolean> {
   const isOn = comparisonsOf(state).length > 0;
-  return perform(CONTROL.compare, () => putLanes(isOn ? [] : lanesToCompare(state)));
+  return perform(CONTROL.compare, putLanes(isOn ? [] : lanesToCompare(state)));
 }
 
 /** Add a comparison lane; with the law of lane 1 it gets a copy of its settings. */
@@ -42,16 +42,16 @@ export function addLane(state: SessionState, law: Law): Promise<boolean> {
   const lane: Lane = { law };
   if (law === configuration.law && lawOf(law)?.takes_gains) lane.gains = gainsOf(lane, state);
   else if (law === configuration.law) lane.parameters = configuration.parameters[law] ?? {};
-  return perform(CONTROL.compare, () => putLanes([...comparisonsOf(state), lane]));
+  return perform(CONTROL.compare, putLanes([...comparisonsOf(state), lane]));
 }
 
 export function removeLane(state: SessionState, lane: number): Promise<boolean> {
   const remaining = comparisonLanes(state).filter((row) => row.lane !== lane);
-  return perform(CONTROL.compare, () => putLanes(remaining.map(({ controller }) => controller)));
+  return perform(CONTROL.compare, putLanes(remaining.map(({ controller }) => controller)));
 }
 
 async function removeWeights(state: SessionState): Promise<SessionState> {
-  for (const row of activeWeights(state)) await removeLoad(row.id);
+  for (const row of activeWeights(state)) await removeLoad(row.id)();
   return readState();
 }
 
@@ -66,8 +66,9 @@ export function toggleWeight(): Promise<boolean> {
     const state = session.peek();
     if (state === null) return false;
     const isWeightActive = activeWeights(state).length > 0;
-    return perform(CONTROL.load, () =>
-      isWeightActive ? removeWeights(state) : addLoad(nextWeight(state)),
+    return perform(
+      CONTROL.load,
+      isWeightActive ? () => removeWeights(state) : addLoad(nextWeight(state)),
     );
   });
   return pending;

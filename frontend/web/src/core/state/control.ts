@@ -75,7 +75,8 @@ export function requestControl(): void {
 
 export async function confirmControl(name: string): Promise<void> {
   const clientName = nameForControl(name);
-  const isTaken = await perform(CONTROL_OF_SESSION, () =>
+  const isTaken = await perform(
+    CONTROL_OF_SESSION,
     takeControl(clientName, otherHolder.peek() !== null),
   );
   if (!isTaken) return;
@@ -85,15 +86,16 @@ export async function confirmControl(name: string): Promise<void> {
 
 /** In a class the user's name is known: join the queue; the instructor gets control at once. */
 const joinControlQueue = (): Promise<boolean> =>
-  perform(CONTROL_OF_SESSION, () =>
+  perform(
+    CONTROL_OF_SESSION,
     takeControl(nameForControl(access.peek()?.name ?? ""), isInstructor.peek()),
   );
 
 export const handOver = (to: string): Promise<boolean> =>
-  perform(CONTROL_OF_SESSION, () => handControlOver(to));
+  perform(CONTROL_OF_SESSION, handControlOver(to));
 
 export const lock = (isLocked: boolean): Promise<boolean> =>
-  perform(CONTROL_OF_SESSION, () => lockControl(isLocked));
+  perform(CONTROL_OF_SESSION, lockControl(isLocked));
 
 /** Continues in a session that no other user commands; the page is reloaded with it. */
 export async function openOwnSession(arm = ""): Promise<void> {

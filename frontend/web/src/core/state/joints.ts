@@ -1,6 +1,6 @@
 /** The arm of a session: its joints, their settings and their lanes. */
-import type { ArmSetup, Joint } from "../api/arm";
-import type { SessionState } from "../api/types";
+import type { ArmSetup } from "../api/arm";
+import type { Joint, SessionState } from "../api/types";
 
 export type Armed = Pick<SessionState, "configuration">;
 

@@ -1,14 +1,7 @@
 /** The exchangeable parts, except for laws, with the server's description of each kind. */
 import { signal } from "@preact/signals";
-import { putEffects, readKinds } from "../api/client";
-import type {
-  EffectRow,
-  EffectsPreset,
-  FormField,
-  Kinds,
-  ParameterRow,
-  SessionState,
-} from "../api/types";
+import { putEffects, readKinds, type SessionRequest } from "../api/client";
+import type { EffectRow, EffectsPreset, FormField, Kinds, ParameterRow } from "../api/types";
 import type { Quantity } from "../quantities";
 import { DEGREES_PER_RADIAN } from "../units";
 
@@ -30,11 +23,13 @@ export async function openKinds(): Promise<void> {
 }
 
 /** Switch on the effects of a preset, with their default values. */
-export async function choosePreset(name: Preset): Promise<SessionState> {
-  kinds.value ??= await readKinds();
-  const preset = kinds.value.presets.find((candidate) => candidate.name === name);
-  return putEffects(preset?.effects ?? {});
-}
+export const choosePreset =
+  (name: Preset): SessionRequest =>
+  async (edit) => {
+    kinds.value ??= await readKinds();
+    const preset = kinds.value.presets.find((candidate) => candidate.name === name);
+    return putEffects(preset?.effects ?? {})(edit);
+  };
 
 /** Label, unit, bounds and factor on screen: angles in degrees, small numbers in thousandths. */
 export function quantityOfParameter(parameter: ParameterRow): Quantity {

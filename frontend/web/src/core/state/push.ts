@@ -4,6 +4,7 @@
  */
 import { signal } from "@preact/signals";
 import { addLoad, removeLoad } from "../api/client";
+import type { Edit } from "../api/operations";
 import type { Load, SessionState } from "../api/types";
 import { perform } from "./actions";
 import { acceptState, session } from "./session";
@@ -65,9 +66,9 @@ export class Push {
     if (this.#isSending) return;
     this.#isSending = true;
     let [id, sent, writtenAt] = [null as number | null, null as Components | null, 0];
-    const send = async (components: Components, pace: SessionSpeed) => {
+    const send = async (components: Components, pace: SessionSpeed, edit: Edit) => {
       const load = this.kind.load(components, holdDuration(pace));
-      const state = await addLoad(load);
+      const state = await addLoad(load)(edit);
       id = state.loads.filter((row) => row.load.kind === load.kind).at(-1)?.id ?? null;
       return state;
     };
@@ -75,12 +76,13 @@ export class Push {
       const [components, state] = [now, session.peek()];
       if (state && this.isUpdateDue(components, sent, performance.now() - writtenAt)) {
         [sent, writtenAt] = [components, performance.now()];
-        if (!(await perform(this.kind.control, () => send(components, state)))) this.release();
+        const request = (edit: Edit) => send(components, state, edit);
+        if (!(await perform(this.kind.control, request))) this.release();
       }
       await wait(POLL_INTERVAL_MS);
     }
     // The server has already ended this push: no request is needed.
-    if (id !== null) await removeLoad(id).then(acceptState, () => undefined);
+    if (id !== null) await removeLoad(id)().then(acceptState, () => undefined);
     this.#isSending = false;
     if (this.held.peek() !== null) await this.send();
   }

@@ -1,7 +1,9 @@
 /** The draft design: its settings, its predicted behaviour, and the settings in use. */
+
 import { computed, signal } from "@preact/signals";
 import { putGains, putObserver } from "../../core/api/client";
 import { type Prediction, predict } from "../../core/api/design";
+import type { Edit } from "../../core/api/operations";
 import type { Configuration, SessionState } from "../../core/api/types";
 import { perform } from "../../core/state/actions";
 import { settings as session } from "../../core/state/arm";
@@ -141,10 +143,10 @@ export async function apply(): Promise<void> {
   isApplying.value = true;
   const { gains } = requestOf(design);
   const differs = (key: keyof Draft) => JSON.stringify(design[key]) !== JSON.stringify(now[key]);
-  const send = async () => {
+  const send = async (edit: Edit) => {
     const state =
-      gains && (differs("position") || differs("stiffness")) ? await putGains(gains) : null;
-    return differs("observer") || state === null ? putObserver(...design.observer) : state;
+      gains && (differs("position") || differs("stiffness")) ? await putGains(gains)(edit) : null;
+    return differs("observer") || state === null ? putObserver(...design.observer)(edit) : state;
   };
   const isDone = await perform("design.apply", send, baseState);
   isApplying.value = false;

@@ -1,9 +1,8 @@
 /** Undo of settings, references and loads: one step per change, of any user. */
 import { effect, signal } from "@preact/signals";
-import type { ArmPatch, Joint } from "../../core/api/arm";
+import type { ArmPatch } from "../../core/api/arm";
 import {
   addLoad,
-  forJoint,
   patchArm,
   putEffects,
   putGains,
@@ -16,10 +15,13 @@ import {
   putStiffness,
   readState,
   removeLoad,
+  type SessionRequest,
 } from "../../core/api/client";
+import type { Edit } from "../../core/api/operations";
 import type {
   Configuration,
   Effects,
+  Joint,
   Lane,
   Law,
   Load,
@@ -197,85 +199,91 @@ export function watchDesign(): void {
   });
 }
 
-type Request = () => Promise<SessionState>;
-
 /** The requests that restore the settings of a joint, whose settings `state` has. */
-function restoreJoint(design: JointDesign, state: SessionState): Request[] {
+function restoreJoint(design: JointDesign, state: SessionState): SessionRequest[] {
   const now = designOfJoint(state);
-  const calls: Request[] = [];
+  const calls: SessionRequest[] = [];
   if (differs("law", design, now)) {
-    calls.push(() => putLaw(design.law, comparisonLaws(design.law, state)));
+    calls.push(putLaw(design.law, comparisonLaws(design.law, state)));
   }
   if (differs("effects", design, now)) {
-    calls.push(() => putEffects(design.effects));
+    calls.push(putEffects(design.effects));
   }
   if (!isEqual(design.references.position, now.references.position)) {
-    calls.push(() => putPosition(design.references.position));
+    calls.push(putPosition(design.references.position));
   }
   if (!isEqual(design.references.stiffness, now.references.stiffness)) {
-    calls.push(() => putStiffness(design.references.stiffness));
+    calls.push(putStiffness(design.references.stiffness));
   }
   if (differs("position", design, now) || differs("stiffness", design, now)) {
     const [c0, c1, c2, c3] = design.position as [number, number, number, number];
     const [s0, s1] = design.stiffness as [number, number];
-    calls.push(() =>
+    calls.push(
       putGains({ position_coefficients: [c0, c1, c2, c3], stiffness_coefficients: [s0, s1] }),
     );
   }
-  if (differs("observer", design, now)) calls.push(() => putObserver(...design.observer));
+  if (differs("observer", design, now)) calls.push(putObserver(...design.observer));
   for (const law of changedLaws(design, now)) {
-    calls.push(() => putParameters({ [law]: design.parameters[law] ?? {} }));
+    calls.push(putParameters({ [law]: design.parameters[law] ?? {} }));
   }
   return calls;
 }
 
 /** The requests that restore a design: one for each part that differs from the current one. */
-export function restoringRequests(design: Design, state: SessionState): Request[] {
+export function restoringRequests(design: Design, state: SessionState): SessionRequest[] {
   const now = designOf(state);
   if (design.joints.length !== now.joints.length) return [];
   const calls = listJoints(state).flatMap((settings, index) => {
     const joint = armOf(state) === null ? null : (JOINTS[index] as Joint);
     const ofJoint = restoreJoint(design.joints[index] as JointDesign, settings);
-    return ofJoint.map((call) => () => forJoint(joint, call));
+    return ofJoint.map(
+      (call): SessionRequest =>
+        (edit) =>
+          call(edit.forJoint(joint)),
+    );
   });
   if (!isEqual(design.arm, now.arm)) {
-    const patch = () => patchArm(findChanges(design.arm, now.arm));
+    const patch = patchArm(findChanges(design.arm, now.arm));
     // Joints accept a reference only while the tip has none.
     if (design.arm.tip) calls.push(patch);
     else calls.unshift(patch);
   }
   const lost = lostLanes(design, now).map((id) => design.comparisons[id] as Lane);
-  if (lost.length > 0) calls.push(() => putLanes([...comparisonsOf(state), ...lost]));
+  if (lost.length > 0) calls.push(putLanes([...comparisonsOf(state), ...lost]));
   for (const id of changedLanes(design, now)) {
     const lane = comparisonLanes(state).find((one) => String(one.id) === id)?.lane;
-    if (lane !== undefined) calls.push(() => putLane(lane, design.comparisons[id] as Lane));
+    if (lane !== undefined) calls.push(putLane(lane, design.comparisons[id] as Lane));
   }
   // Last: a load changes the revision that settings are sent with.
   for (const { load, joint } of lostLoads(design, now)) {
-    calls.push(() => forJoint(joint, () => addLoad(load)));
+    calls.push((edit) => addLoad(load)(edit.forJoint(joint)));
   }
   if (design.run === now.run) {
     for (const { id } of difference(undoableLoads(state), design.loads, loadOf)) {
-      calls.push(() => removeLoad(id).then(readState));
+      calls.push(() => removeLoad(id)().then(readState));
     }
   }
   return calls;
 }
 
-async function restoreDesign(design: Design, state: SessionState): Promise<SessionState> {
+async function restoreDesign(
+  design: Design,
+  state: SessionState,
+  edit: Edit,
+): Promise<SessionState> {
   let reached = state;
-  for (const call of restoringRequests(design, state)) reached = await call();
+  for (const call of restoringRequests(design, state)) reached = await call(edit);
   return reached;
 }
 
 /** Restore design, loads and lanes of a state; the run continues. */
 export const restoreTo = (before: SessionState): Promise<boolean> =>
-  perform("session", async () => {
+  perform("session", async (edit) => {
     // The page may be out of date: answers of a paused session can overtake each other.
     const state = await readState();
     const lanes = comparisonsOf(before);
-    const reached = isEqual(lanes, comparisonsOf(state)) ? state : await putLanes(lanes);
-    return restoreDesign({ ...designOf(before), comparisons: {} }, reached);
+    const reached = isEqual(lanes, comparisonsOf(state)) ? state : await putLanes(lanes)(edit);
+    return restoreDesign({ ...designOf(before), comparisons: {} }, reached, edit);
   });
 
 /** A restored lane has a new identity on the server: earlier steps are updated to it. */
@@ -305,8 +313,8 @@ export async function undo(): Promise<boolean> {
   const lost = lostLanes(last, designOf(state));
   let back: string[] = [];
   isUndoing = true;
-  const isDone = await perform("design.undo", async () => {
-    const reached = await restoreDesign(last, state);
+  const isDone = await perform("design.undo", async (edit) => {
+    const reached = await restoreDesign(last, state, edit);
     if (lost.length > 0) back = Object.keys(designOf(reached).comparisons).slice(-lost.length);
     return reached;
   });

@@ -5,7 +5,7 @@ import { addLoad, patchArm, removeLoad } from "../../core/api/client";
 import type { SessionState } from "../../core/api/types";
 import { placeLinks } from "../../core/armgeometry";
 import { perform } from "../../core/state/actions";
-import { chooseJoint, type JointChoice, jointChoice } from "../../core/state/arm";
+import { type JointChoice, jointChoice } from "../../core/state/arm";
 import { armOf } from "../../core/state/joints";
 import { tipMassKg } from "../../core/state/plant";
 import { samples } from "../../core/state/session";
@@ -65,10 +65,10 @@ function Wall({ state }: { state: SessionState }) {
   const walls = state.loads.filter(({ active, load }) => active && load.kind === "wall");
   const [wall] = walls;
   const toggle = () =>
-    perform("arm.wall", async () => {
-      if (wall !== undefined || arm === null) return removeLoad(wall?.id ?? 0);
+    perform("arm.wall", async (edit) => {
+      if (wall !== undefined || arm === null) return removeLoad(wall?.id ?? 0)();
       const at = WALL_SHARE * rightmostReference(arm.links);
-      return addLoad({ ...WALL, distance_m: -at });
+      return addLoad({ ...WALL, distance_m: -at })(edit);
     });
   return (
     <>
@@ -104,9 +104,7 @@ const REFERENCES = (["joints", "tip"] as const).map((value) => ({
 function ReferenceChoice({ arm }: { arm: ArmSetup }) {
   const id = useId();
   const choose = (value: "joints" | "tip") =>
-    perform("arm.reference", () =>
-      patchArm({ tip: value === "tip" ? buildEllipse(arm.links) : null }),
-    );
+    perform("arm.reference", patchArm({ tip: value === "tip" ? buildEllipse(arm.links) : null }));
   return (
     <>
       <div class="spread">
@@ -132,12 +130,21 @@ export function ArmGroup({ state, isBasic }: { state: SessionState; isBasic: boo
   const last = useRef<NonNullable<ArmPatch["adaptation"]> | null>(null);
   if (arm === null) return null;
   if (arm.adaptation) last.current = arm.adaptation;
-  const send = (patch: ArmPatch) => perform("arm", () => patchArm(patch));
+  const send = (patch: ArmPatch) => perform("arm", patchArm(patch));
   const choice = jointChoice.value;
   return (
     <Group
       title={words.title}
-      aside={<Choice label={words.joint} options={JOINTS} value={choice} onChoose={chooseJoint} />}
+      aside={
+        <Choice
+          label={words.joint}
+          options={JOINTS}
+          value={choice}
+          onChoose={(next) => {
+            jointChoice.value = next;
+          }}
+        />
+      }
     >
       {!isBasic && (
         <p class="hint is-about">{choice === "both" ? words.both : words.one(choice)}</p>
@@ -170,7 +177,7 @@ export function ArmGroup({ state, isBasic }: { state: SessionState; isBasic: boo
         max={20}
         value={tipMassKg.value}
         range={{ min: 0.05, max: 2, logarithmic: true }}
-        send={async (mass) => {
+        send={(mass) => async () => {
           tipMassKg.value = mass;
           return state;
         }}

@@ -36,7 +36,7 @@ export function ComparisonRow({ state, comparison, isRecording }: ComparisonLane
           title={words.lawHint}
           value={controller.law}
           button={title}
-          onChoose={(next) => perform(CONTROL.compare, () => putLane(lane, { law: next }))}
+          onChoose={(next) => perform(CONTROL.compare, putLane(lane, { law: next }))}
         />
         <span class="comparison-label">
           {label || (hasOwnSettings(controller) ? words.own : "")}

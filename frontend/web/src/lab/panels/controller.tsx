@@ -34,9 +34,7 @@ export function Controller({ state, isBasic }: { state: SessionState; isBasic: b
           button={titleOf(law)}
           title={text.laws.choose}
           value={law}
-          onChoose={(next) =>
-            perform("controller.law", () => putLaw(next, comparisonLaws(next, state)))
-          }
+          onChoose={(next) => perform("controller.law", putLaw(next, comparisonLaws(next, state)))}
         />
       }
     >

@@ -33,7 +33,7 @@ export function CustomLoad({ isShown }: { isShown: boolean }) {
 
   const submit = (event: Event) => {
     event.preventDefault();
-    void perform("load.custom", () => addLoad(draft));
+    void perform("load.custom", addLoad(draft));
   };
 
   return (

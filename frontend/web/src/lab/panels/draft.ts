@@ -1,5 +1,6 @@
 /** Numbers of the server while the user changes them. */
 import { useRef, useState } from "preact/hooks";
+import type { SessionRequest } from "../../core/api/client";
 import type { SessionState } from "../../core/api/types";
 import { perform, problem } from "../../core/state/actions";
 import { session } from "../../core/state/session";
@@ -9,7 +10,7 @@ export interface ServerNumber {
   name: string;
   /** Value on the server, in the unit on screen. */
   value: number;
-  send: (value: number) => Promise<SessionState>;
+  send: (value: number) => SessionRequest;
 }
 
 /**
@@ -28,7 +29,11 @@ export function useServerNumber({ name, value, send }: ServerNumber) {
     while (waiting.current !== null) {
       const next = waiting.current;
       waiting.current = null;
-      isTaken = await perform(name, () => send(next), stateAtStart.current ?? session.peek());
+      isTaken = await perform(
+        name,
+        (edit) => send(next)(edit),
+        stateAtStart.current ?? session.peek(),
+      );
       stateAtStart.current = null;
     }
     sending.current = null;

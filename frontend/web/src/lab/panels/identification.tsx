@@ -42,9 +42,7 @@ function Identification({ state }: { state: SessionState }) {
         <button
           type="button"
           class="button"
-          onClick={() =>
-            void perform("identification.excite", () => startExcitation(words.runName))
-          }
+          onClick={() => void perform("identification.excite", startExcitation(words.runName))}
         >
           {words.excite}
         </button>
@@ -83,7 +81,7 @@ function ModelFile() {
     if (file === undefined) return;
     const toml = await file.text();
     input.value = "";
-    await perform("identification.file", () => putNominal(toml));
+    await perform("identification.file", putNominal(toml));
   };
   return (
     <>

@@ -70,9 +70,7 @@ export function LaneForm({ law, state, comparison }: LaneFormProps) {
           <button
             type="button"
             class="quiet"
-            onClick={() =>
-              void perform(`lanes.${id}`, () => putLane(lane, { law: controller.law }))
-            }
+            onClick={() => void perform(`lanes.${id}`, putLane(lane, { law: controller.law }))}
           >
             {words.share}
           </button>

@@ -1,3 +1,4 @@
+import type { SessionRequest } from "../../core/api/client";
 import { putParameters } from "../../core/api/client";
 import type { LawParameter, LawRow, SessionState } from "../../core/api/types";
 import { hasLongMeaning, labelParameter } from "../../core/state/laws";
@@ -24,7 +25,7 @@ interface ParameterProps {
   name: string;
   row: LawParameter;
   held: Value;
-  send: (value: Value) => Promise<SessionState>;
+  send: (value: Value) => SessionRequest;
 }
 
 function Parameter({ name, row, held, send }: ParameterProps) {
@@ -56,7 +57,7 @@ interface ParameterFieldsProps {
   name: string;
   held: Record<string, unknown>;
   /** Receives all parameters, including the unchanged ones. */
-  send: (parameters: Record<string, unknown>) => Promise<SessionState>;
+  send: (parameters: Record<string, unknown>) => SessionRequest;
 }
 
 /** A field for each number of a law's own parameters. */

@@ -44,7 +44,7 @@ function LoadRows({ state }: { state: SessionState }) {
             type="button"
             class="quiet"
             aria-label={text.load.removeThis(row.label)}
-            onClick={() => void perform("load.rows", () => removeLoad(row.id))}
+            onClick={() => void perform("load.rows", removeLoad(row.id))}
           >
             ✕
           </button>

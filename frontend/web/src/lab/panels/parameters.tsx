@@ -136,7 +136,7 @@ export function ParameterTable({ actuator, nominal }: Models) {
         type="button"
         class="button"
         disabled={isModelExact}
-        onClick={() => void perform("realism.exact", () => patchNominal(patchOf(actuator)))}
+        onClick={() => void perform("realism.exact", patchNominal(patchOf(actuator)))}
       >
         {words.exact}
       </button>

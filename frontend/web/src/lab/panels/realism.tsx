@@ -28,7 +28,7 @@ export function Realism({ state }: { state: SessionState }) {
           label={words.choose}
           options={CHOICES}
           value={preset}
-          onChoose={(next) => perform("realism.preset", () => choosePreset(next))}
+          onChoose={(next) => perform("realism.preset", choosePreset(next))}
         />
       }
     >
@@ -65,7 +65,7 @@ function EffectControl({ effect, effects, last }: EffectControlProps) {
   const find = (held: Effects) => (held as Values)[effect.name];
   const send = (value: unknown) =>
     putEffects({ ...currentValueOr("effects", effects), [effect.name]: value } as Effects);
-  const toggle = (value: unknown) => perform(name, () => send(value));
+  const toggle = (value: unknown) => perform(name, (edit) => send(value)(edit));
   const held = find(effects);
   if (effect.value?.kind === "number") {
     return (

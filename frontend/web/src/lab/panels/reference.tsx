@@ -1,7 +1,8 @@
 import type { ComponentChildren } from "preact";
 import { useState } from "preact/hooks";
+import type { SessionRequest } from "../../core/api/client";
 import type { Follows } from "../../core/api/design";
-import type { PositionReference, SessionState, StiffnessReference } from "../../core/api/types";
+import type { PositionReference, StiffnessReference } from "../../core/api/types";
 import { perform } from "../../core/state/actions";
 import { areJointsDifferent, settings } from "../../core/state/arm";
 import { text } from "../../core/text/en";
@@ -25,7 +26,7 @@ interface ReferenceGroupProps {
   reference: PositionReference | StiffnessReference;
   kinds: readonly Option<Kind>[];
   /** Send the reference of this kind. */
-  onChoose: (kind: Exclude<Kind, "other">) => Promise<SessionState>;
+  onChoose: (kind: Exclude<Kind, "other">) => SessionRequest;
   /** The fields of a sine or a constant. */
   children: ComponentChildren;
 }
@@ -39,7 +40,7 @@ export function ReferenceGroup(props: ReferenceGroupProps) {
   const shown = isOther ? "other" : kindOf(reference);
   const choose = (next: Kind) => {
     setOther(next === "other");
-    return next === "other" ? undefined : perform(`${topic}.kind`, () => onChoose(next));
+    return next === "other" ? undefined : perform(`${topic}.kind`, onChoose(next));
   };
   return (
     <Group

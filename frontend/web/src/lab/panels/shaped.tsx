@@ -1,5 +1,11 @@
 import { useEffect, useState } from "preact/hooks";
-import { putPosition, putStiffness, repeatPosition, repeatStiffness } from "../../core/api/client";
+import {
+  putPosition,
+  putStiffness,
+  repeatPosition,
+  repeatStiffness,
+  type SessionRequest,
+} from "../../core/api/client";
 import {
   type Follows,
   type Preview,
@@ -44,8 +50,7 @@ export const titleOf = (follows: Follows, kind: string): string =>
     : (kinds.value?.[follows].find((one) => one.kind === kind)?.title ?? kind);
 
 const PAUSE_MS = 300;
-const repeat = (follows: Follows) =>
-  follows === "position" ? repeatPosition() : repeatStiffness();
+const repeat = (follows: Follows) => (follows === "position" ? repeatPosition : repeatStiffness);
 
 interface PreviewedReference {
   reference: Reference;
@@ -66,11 +71,13 @@ function putReference(follows: Follows, reference: Reference) {
 }
 
 /** The current reference restarts: the server treats a repeated request as one. */
-async function follow(follows: Follows, reference: Reference) {
-  const before = session.peek()?.revision;
-  const state = await putReference(follows, reference);
-  return state.revision === before ? repeat(follows) : state;
-}
+const follow =
+  (follows: Follows, reference: Reference): SessionRequest =>
+  async (edit) => {
+    const before = session.peek()?.revision;
+    const state = await putReference(follows, reference)(edit);
+    return state.revision === before ? repeat(follows)(edit) : state;
+  };
 
 interface ShapedProps {
   follows: Follows;
@@ -133,7 +140,7 @@ export function Shaped({ follows, held, configuration }: ShapedProps) {
 
   const submit = (event: Event) => {
     event.preventDefault();
-    if (previewed) void perform(`${follows}.shaped`, () => follow(follows, previewed.reference));
+    if (previewed) void perform(`${follows}.shaped`, follow(follows, previewed.reference));
   };
 
   return (
@@ -177,7 +184,7 @@ export function Shaped({ follows, held, configuration }: ShapedProps) {
             type="button"
             class="button"
             title={words.againHint}
-            onClick={() => void perform(`${follows}.shaped`, () => repeat(follows))}
+            onClick={() => void perform(`${follows}.shaped`, repeat(follows))}
           >
             {words.again}
           </button>

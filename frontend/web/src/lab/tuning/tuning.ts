@@ -89,9 +89,9 @@ export async function applyBest(): Promise<boolean> {
   const { law, parameters, gains } = setting;
   const betas = setting.observer?.bandwidth_rad_per_s;
   const areGainsSet =
-    (!parameters || (await perform(CONTROL, () => putParameters({ [law]: parameters })))) &&
-    (!gains || (await perform(CONTROL, () => putGains(gains))));
-  return areGainsSet && (!betas || perform(CONTROL, () => putObserver(...betas)));
+    (!parameters || (await perform(CONTROL, putParameters({ [law]: parameters })))) &&
+    (!gains || (await perform(CONTROL, putGains(gains))));
+  return areGainsSet && (!betas || perform(CONTROL, putObserver(...betas)));
 }
 
 /** The best cost so far, after every candidate. */

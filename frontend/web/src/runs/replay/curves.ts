@@ -1,6 +1,5 @@
 /** Channels of a run by plot: the live page's plots, with one selection per quantity. */
-import type { Joint } from "../../core/api/arm";
-import type { StreamedName } from "../../core/api/types";
+import type { Joint, StreamedName } from "../../core/api/types";
 import { CHANNELS, type ChannelName, PRESETS, spanOf, unitOf } from "../../core/plots/channels";
 import { ownerOf, type Trace } from "../../core/plots/definitions";
 import { composeOfJoint } from "../../core/plots/joints";

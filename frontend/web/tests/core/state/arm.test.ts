@@ -3,7 +3,7 @@ import type { SessionState } from "../../../src/core/api/types";
 import { stubBrowser } from "../../browser";
 
 stubBrowser();
-const { areJointsDifferent, chooseJoint, settingsOf, shownJoints } = await import(
+const { areJointsDifferent, jointChoice, settingsOf, shownJoints } = await import(
   "../../../src/core/state/arm"
 );
 const { comparisonLanes } = await import("../../../src/core/state/lanes");
@@ -29,14 +29,14 @@ const STATE = {
 } as unknown as SessionState;
 
 afterEach(() => {
-  chooseJoint("both");
+  jointChoice.value = "both";
   session.value = null;
 });
 
 describe("the settings of an arm", () => {
   it("are those of the selected joint, with its actuator", () => {
     expect(settingsOf(STATE).configuration.law).toBe("ndobc");
-    chooseJoint("2");
+    jointChoice.value = "2";
     const { configuration, actuator } = settingsOf(STATE);
     expect([configuration.law, actuator.name]).toEqual(["pd", "qbmove"]);
     expect(configuration.arm).toBe(STATE.configuration.arm);
@@ -45,7 +45,7 @@ describe("the settings of an arm", () => {
   it("may differ between the joints, part by part", () => {
     expect(areJointsDifferent(STATE, ["stiffness"])).toBe(false);
     expect(areJointsDifferent(STATE, ["law", "gains"])).toBe(true);
-    chooseJoint("1");
+    jointChoice.value = "1";
     expect(areJointsDifferent(STATE, ["law"])).toBe(false);
   });
 
@@ -53,7 +53,7 @@ describe("the settings of an arm", () => {
     expect(shownJoints.value).toBeNull();
     session.value = STATE;
     expect(shownJoints.value).toEqual([1, 2]);
-    chooseJoint("2");
+    jointChoice.value = "2";
     expect(shownJoints.value).toEqual([2]);
   });
 });

@@ -86,13 +86,15 @@ it("undo restores the lanes that differ, and only the tuned ones of the removed 
     designOf,
     isSame,
   } = await import("../../../src/lab/design/history");
+  const { Edit } = await import("../../../src/core/api/operations");
   const slow = { law: "fl_integral", parameters: { position_pole_rad_per_s: 40 } };
   const fast = { law: "fl_integral", parameters: { position_pole_rad_per_s: 70 } };
   const before = stateOf("ndobc", [slow]);
   const after = stateOf("ndobc", [fast]);
   after.configuration.parameters = { fl_integral: { position_pole_rad_per_s: 60 } };
   expect(isSame(designOf(before), designOf(after))).toBe(false);
-  for (const call of callsBack(designOf(before), after)) await call();
+  for (const call of callsBack(designOf(before), after))
+    await call(new Edit(null, { revision: null }));
   expect(sent).toEqual([
     { path: "lab/parameters", body: { fl_integral: POLE } },
     { path: "lab/lanes/2", body: slow },
@@ -102,7 +104,8 @@ it("undo restores the lanes that differ, and only the tuned ones of the removed 
   expect(isSame(designOf(plain), designOf(gone))).toBe(true);
   expect(callsBack(designOf(plain), gone)).toEqual([]);
   expect(isSame(designOf(before), designOf(gone))).toBe(false);
-  for (const call of callsBack(designOf(before), gone)) await call();
+  for (const call of callsBack(designOf(before), gone))
+    await call(new Edit(null, { revision: null }));
   expect(sent.at(-1)).toEqual({ path: "lab/lanes", body: { comparisons: [slow] } });
   expect(isSame(designOf(before), designOf(plain))).toBe(false);
 });

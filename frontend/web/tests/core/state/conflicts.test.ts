@@ -1,4 +1,5 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import type { SessionRequest } from "../../../src/core/api/client";
 import { stubBrowser } from "../../browser";
 
 type Sine = { kind: "sine"; amplitude_rad: number; frequency_hz: number };
@@ -50,7 +51,8 @@ async function load(server: Server) {
   const { text } = await import("../../../src/core/text/en");
   session.value = stateAt("1.0") as never;
   const set = (change: Partial<Sine>, seen?: State) => {
-    const send = () => putPosition({ ...(standing("position", SINE as never) as Sine), ...change });
+    const send: SessionRequest = (edit) =>
+      putPosition({ ...(standing("position", SINE as never) as Sine), ...change })(edit);
     return perform("motion", send, seen as never);
   };
   return { set, start: () => perform("session", start), problem, session, words: text.meanwhile };

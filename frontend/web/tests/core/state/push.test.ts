@@ -14,13 +14,13 @@ interface PushLoad {
 vi.mock("../../../src/core/api/client", () => {
   const state = () => ({ loads: isPushOn ? [{ id: 7, load: { kind } }] : [] });
   return {
-    addLoad: async (load: PushLoad) => {
+    addLoad: (load: PushLoad) => async () => {
       isPushOn = true;
       kind = load.kind;
       asked.push(`${kind} ${(load.force_n ?? load.torque_nm?.slice(0, 1))?.join(" ")}`);
       return state();
     },
-    removeLoad: async (id: number) => {
+    removeLoad: (id: number) => async () => {
       isPushOn = false;
       asked.push(`remove ${id}`);
       return state();

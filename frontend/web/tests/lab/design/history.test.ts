@@ -60,7 +60,9 @@ async function back(to: SessionState, from: SessionState) {
   const { restoringRequests: callsBack, designOf } = await import(
     "../../../src/lab/design/history"
   );
-  for (const call of callsBack(designOf(to), from)) await call();
+  const { Edit } = await import("../../../src/core/api/operations");
+  const edit = new Edit(null, { revision: null });
+  for (const call of callsBack(designOf(to), from)) await call(edit);
   return sent.filter(([method]) => method.toLowerCase() !== "get");
 }
 
