@@ -5,7 +5,6 @@ import pytest
 
 import svsa
 from svsa.actuators.installed import get_mechanism, list_mechanism_names
-from svsa.control.installed import list_law_names
 from svsa.errors import ParameterError
 from svsa.evaluation.actuator_scale import (
     RATES,
@@ -22,6 +21,7 @@ from svsa.evaluation.ranking.scenarios import build_fixed_scenarios, build_link_
 from svsa.evaluation.ranking.test_set import build_test_set
 from svsa.evaluation.trials import DURATION_S, LOAD_S, build_rest
 from svsa.evaluation.tuning.search_space import build_space
+from svsa.evaluation.tuning.tuned_law import load_tuned_laws
 from svsa.simulation.reference.kinds.reference import AnyReference
 from svsa.simulation.reference.kinds.sine import SinePosition
 
@@ -108,7 +108,7 @@ def test_results_file_belongs_to_one_actuator(tmp_path):
         _read_known(path, published.seed, published.trials, "qbmove")
 
 
-def test_rates_of_a_law_are_scaled_by_the_default_gains_of_the_actuator():
+def test_rates_of_a_tuned_law_are_scaled_by_the_default_gains_of_the_actuator():
     """Poles and bandwidths of NDOBC; of a law with its own parameters the other numbers stay."""
     mechanism, of_svsa = get_mechanism("qbmove"), build_entry("ndobc").design
     found = build_entry("ndobc", "qbmove").design
@@ -121,7 +121,7 @@ def test_rates_of_a_law_are_scaled_by_the_default_gains_of_the_actuator():
     assert found.observer.bandwidth_rad_per_s == pytest.approx(scaled)
     declared = build_entry(DECLARED, "qbmove").design
     assert declared.gains == svsa.Gains.from_poles([-25.0] * 4, [-25.0] * 2)
-    for law in list_law_names():
+    for law in load_tuned_laws():
         space = build_space(law)
         values, before = (
             space.read_values(build_entry(law, name).design) for name in ("qbmove", "svsa")

@@ -54,4 +54,5 @@ MOTOR_PD = Law(
     parameters=MotorPdParameters,
     build=build,
     control=control,
+    rejects_feedforward=True,
 )

@@ -1,4 +1,4 @@
-"""The pages of the laws and their index contain the measured results: `make ranking`
+"""The pages of the ranked laws and their index contain the measured results: `make ranking`
 writes them.
 """
 
@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from svsa.control.installed import get_law, list_law_names
+from svsa.control.installed import get_law
 from svsa.evaluation.ranking.bench_runs import load_published_bench_runs
 from svsa.evaluation.ranking.publish import (
     FOLDER,
@@ -20,6 +20,7 @@ from svsa.evaluation.ranking.table import format_success
 from tests.exhaustive import exhaust
 
 ROOT = Path(__file__).parents[3]
+RANKED = sorted({row.law for row in load_published().rows})
 _MARGINS = re.compile(r"\n## Margins about rest\n.*?`svsa margins \w+`\.", re.DOTALL)
 
 
@@ -30,7 +31,7 @@ def read_margins(law: str) -> str:
     return found[0]
 
 
-@pytest.mark.parametrize("law", list_law_names())
+@pytest.mark.parametrize("law", RANKED)
 def test_page_of_a_law_is_generated_from_its_file_and_the_results(law):
     page = build_law_page(load_published(), load_published_bench_runs(), law, read_margins(law))
     assert (ROOT / FOLDER / f"{law}.md").read_text(encoding="utf-8") == page
@@ -39,6 +40,11 @@ def test_page_of_a_law_is_generated_from_its_file_and_the_results(law):
     said, _, doi = get_law(law).source.partition("doi:")
     assert said in page
     assert not doi or f"[doi:{doi}](https://doi.org/{doi})" in page
+
+
+def test_exactly_the_ranked_laws_have_a_page():
+    folder = ROOT / FOLDER
+    assert [path.stem for path in sorted(folder.glob("*.md")) if path.stem != "README"] == RANKED
 
 
 @pytest.mark.parametrize("law", exhaust(["fl", "eso_saturated"], ["eso_saturated"]))
@@ -59,7 +65,7 @@ def test_index_has_every_row():
     results = load_published()
     index = (ROOT / FOLDER / "README.md").read_text(encoding="utf-8")
     assert index == build_index(results, load_published_bench_runs())
-    assert all(f"({law}.md)" in index for law in list_law_names())
+    assert all(f"({law}.md)" in index for law in RANKED)
     for name in ("losses", "pareto"):
         assert f"(pictures/{name}.png)" in index
         assert (ROOT / FOLDER / "pictures" / f"{name}.png").is_file()

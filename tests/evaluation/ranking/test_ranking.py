@@ -5,9 +5,9 @@ import pytest
 
 import svsa
 from svsa.actuators.domain import DEFLECTION_LIMIT
-from svsa.control.installed import PAPERS_LAW
+from svsa.control.installed import PAPERS_LAW, list_law_names
 from svsa.evaluation.metrics import find_held
-from svsa.evaluation.ranking.entry import DECLARED, build_entry, list_entry_keys
+from svsa.evaluation.ranking.entry import DECLARED, build_entry
 from svsa.evaluation.ranking.measure import (
     TrialSet,
     build_family_outcome,
@@ -26,6 +26,7 @@ from svsa.evaluation.ranking.scenarios import (
 from svsa.evaluation.ranking.single_run import build_shown_run
 from svsa.evaluation.ranking.test_set import build_test_set
 from svsa.evaluation.trials import LOAD_S
+from svsa.evaluation.tuning.tuned_law import load_tuned_laws
 from svsa.runs.batch import run_configurations
 from svsa.simulation.loop.tally import SUMMARY
 from svsa.simulation.reference.kinds.steps import StepsPosition
@@ -135,9 +136,10 @@ def test_rows_without_a_significant_difference_share_a_rank():
 
 
 def test_published_results_are_complete():
-    """Every row has the same trials; sums and ranks follow from the results of each trial."""
+    """A row for every tuned law. Sums and ranks follow from the results of each trial."""
     results = load_published()
-    assert {row.key for row in results.rows} == set(list_entry_keys())
+    assert {row.key for row in results.rows} == {DECLARED, *load_tuned_laws()}
+    assert {row.law for row in results.rows} <= {*list_law_names()}
     assert results.ranks == compute_ranks(results.rows)
     for row in results.rows:
         for family in row.families.values():
