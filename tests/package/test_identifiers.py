@@ -1,7 +1,7 @@
 """Architecture, instructions for extensions and decisions name only identifiers of the source.
 
-An identifier is a word in backticks with an underscore or an inner capital letter, or a name, dotted
-or not, that fills its backticks. What the source does not have, such as another program or a
+An identifier is a word in backticks with an underscore or an inner capital letter, or a name,
+dotted or not, that fills its backticks. What the source does not have, such as another program or a
 function that was removed, has no backticks. NAME stands for a name that the reader chooses.
 `test_paths.py` checks the paths.
 """
@@ -67,6 +67,8 @@ def test_identifiers_of_a_document_exist(document: Path) -> None:
 
 def test_search_finds_what_the_source_does_not_have() -> None:
     absent = "".join(["Absent", "Route"])
-    text = f"`compiled` of\n`svsa.simulate`, `{absent}`, `svsa.{absent}`, `f({absent}, a_b_{absent})`"
+    text = (
+        f"`compiled` of\n`svsa.simulate`, `{absent}`, `svsa.{absent}`, `f({absent}, a_b_{absent})`"
+    )
     assert find_unknown(text) == [absent, absent, absent, f"a_b_{absent}"]
     assert find_unknown(f"`{absent}.py`, `NAMELoad`, `tests/{absent}.py`") == [f"{absent}.py"]
