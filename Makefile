@@ -61,7 +61,7 @@ quick: .venv/installed  ## run fast tests without server, bench or browser
 	@$(COMPILE_AND_TEST_PAGE)
 	$(BIN)/pytest $(BY_TWO) $(SHOWN) -q -m "not long and not exhaustive and not wall_clock" $(SERVED:%=--ignore=tests/%)
 
-check: .venv/installed $(PAGE)  ## check format, lint, terms, types, import layers, generated files
+check: .venv/installed $(PAGE)  ## check format, lint, terms, types, import layers, generated files, size
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	git ls-files -z -- $(WRITTEN) | xargs -0 $(BIN)/codespell
@@ -72,6 +72,7 @@ check: .venv/installed $(PAGE)  ## check format, lint, terms, types, import laye
 # The type check takes longest; its output is printed after that of the other checks.
 check-beside-types:
 	$(BIN)/lint-imports
+	@$(BIN)/python -m tests.package.size --check
 	@$(BIN)/svsa openapi | diff -q docs/openapi.json - || (echo "Run: make schema"; exit 1)
 	$(WEB) run check
 

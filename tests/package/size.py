@@ -100,10 +100,11 @@ def main() -> None:
     if "--check" in sys.argv[1:]:
         sys.exit("\n".join(find_excess(counts, ceilings)) or 0)
     rows = [*counts.items(), ("all", sum(counts.values(), Counter[str]()))]
-    print(f"| folder | lines | {' | '.join(KINDS)} |\n|{'---|' * (len(KINDS) + 2)}")
+    table = [f"| folder | lines | {' | '.join(KINDS)} |", f"|{'---|' * (len(KINDS) + 2)}"]
     for folder, count in rows:
         cells = (f"{number:,}" for number in (count.total(), *(count[kind] for kind in KINDS)))
-        print(f"| {folder} | {' | '.join(cells)} |")
+        table.append(f"| {folder} | {' | '.join(cells)} |")
+    sys.stdout.write("\n".join(table) + "\n")
 
 
 if __name__ == "__main__":
