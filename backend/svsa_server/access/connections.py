@@ -12,6 +12,7 @@ import asyncio
 import math
 import struct
 from collections.abc import Callable
+from http import HTTPStatus
 from typing import Any, cast
 
 import h11
@@ -26,6 +27,8 @@ from websockets.server import ServerProtocol
 from svsa_server.access.admission import Admission
 from svsa_server.security_headers import add_security_headers
 
+MAX_HEAD_BYTES = 65_536
+"""Maximum size of the first line and the headers of a request."""
 PING_EVERY_BYTES = 4096
 FIRST_WINDOW_BYTES = 16 * 1024
 MIN_WINDOW_BYTES = 8 * 1024
@@ -35,7 +38,20 @@ QUEUED_S = 0.5
 
 
 class SecuredHttp(h11.Connection):
-    """An HTTP connection whose responses have the security headers."""
+    """An HTTP connection with a limited size of requests and security headers in responses."""
+
+    def next_event(self) -> Any:
+        """Return the next event; h11 limits only the size of an incomplete one.
+
+        Raises:
+            h11.RemoteProtocolError: If a request is too large or invalid.
+        """
+        event = super().next_event()
+        if isinstance(event, h11.Request):
+            size = len(event.target) + sum(len(name) + len(value) for name, value in event.headers)
+            if size > MAX_HEAD_BYTES:
+                raise h11.RemoteProtocolError("headers too large", error_status_hint=431)
+        return event
 
     def send(self, event: h11.Event) -> Any:
         """Return the bytes of an event; a response is completed before."""
@@ -68,7 +84,7 @@ class BoundHttp(H11Protocol):
         super().__init__(*arguments, **named)
         self._admission = admission
         self._has_room = True
-        self.conn = SecuredHttp(h11.SERVER, self.conn._max_incomplete_event_size)
+        self.conn = SecuredHttp(h11.SERVER, MAX_HEAD_BYTES)
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
         """Wait for the first request."""
@@ -108,7 +124,9 @@ class BoundHttp(H11Protocol):
         super().handle_websocket_upgrade(event)
 
     def _should_upgrade(self) -> bool:
-        return self._has_room and super()._should_upgrade()
+        # `websockets` would not answer another method at all.
+        is_get = self.scope["method"] == "GET"
+        return is_get and self._has_room and super()._should_upgrade()
 
     def _watch(self) -> None:
         is_awaited = self.conn.their_state in (h11.IDLE, h11.SEND_BODY)
@@ -152,6 +170,20 @@ class BoundWebSocket(WebSocketsSansIOProtocol):
         self._quickest_s = math.inf
         self._room = asyncio.Event()
         self._arrived_before = 0
+
+    def data_received(self, data: bytes) -> None:
+        """Read data; reject a request that `websockets` cannot read, which it would not answer."""
+        super().data_received(data)
+        if self.conn.handshake_exc is None or self.handshake_initiated or self.close_sent:
+            return
+        reason = self.conn.handshake_exc.__cause__ or self.conn.handshake_exc
+        self.close_sent = True
+        # Another one: `conn` cannot send any more.
+        answer = SecuredHandshake(logger=self.logger)
+        text = f"Invalid handshake: {reason}."
+        answer.send_response(answer.reject(HTTPStatus.BAD_REQUEST, text))
+        self.transport.write(b"".join(answer.data_to_send()))
+        self.transport.close()
 
     async def send(self, message: Any) -> None:
         """Send a message, as far as the window has room for it."""
