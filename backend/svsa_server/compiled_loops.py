@@ -10,7 +10,7 @@ from svsa.actuators.installed import list_mechanism_names
 from svsa.actuators.parameters import SVSA
 from svsa.control.installed import get_law
 from svsa.numerics.compilation import is_compiled_before
-from svsa.numerics.separate_compilation import build_child
+from svsa.numerics.separate_compilation import build_child, can_store
 from svsa.simulation.arm.loop import advance_arm
 from svsa.simulation.loop.loop import advance
 
@@ -42,7 +42,7 @@ async def compile_for(actuator: str, law: str) -> None:
     """Compile the loop and a law for an actuator in a process of its own.
 
     The compiler would delay the sessions of this process as long as it runs. One process at a time;
-    what it could not compile is compiled, and reported, by the session.
+    what it could not compile or store is compiled, and reported, by the session.
     """
     async with _compiling:
         if not await asyncio.to_thread(is_compiled_for, actuator, law):
@@ -65,6 +65,8 @@ def _is_compiled_for_arm(actuators: tuple[str, str], law: str) -> bool:
 
 
 async def _compile(*arguments: str) -> None:
+    if not can_store(advance):
+        return
     _begun[:] = [time.monotonic()]
     process = await asyncio.create_subprocess_exec(
         *build_child(COMPILE),

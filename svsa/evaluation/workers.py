@@ -9,6 +9,8 @@ from concurrent.futures import ProcessPoolExecutor
 from functools import cache
 from multiprocessing.context import BaseContext
 
+from svsa.numerics.separate_compilation import prefer_in_oom
+
 NICENESS = 10
 """Gives a tenth of a core that is otherwise busy; with the lowest priority the work would not
 progress for minutes.
@@ -56,10 +58,12 @@ def _begin(environment: dict[str, str]) -> None:
 
 
 def set_up_worker() -> None:
-    """Lower the priority, leave Ctrl-C to the parent, and end when it ends.
+    """Lower the priority, leave Ctrl-C to the parent, and end when it ends, or before it if the
+    memory is exhausted.
 
-    The workers of a worker have the same priority.
+    The workers of a worker have the same priority, and so have laws.
     """
+    prefer_in_oom()
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     if sys.platform != "win32":
         os.nice(max(0, NICENESS - os.nice(0)))

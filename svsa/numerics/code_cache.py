@@ -221,11 +221,6 @@ def _remove(path: Path) -> None:
         path.unlink()
 
 
-def is_reported() -> bool:
-    """Whether this process has reported a problem of the cache, which it does once."""
-    return _is_reported
-
-
 @cache
 def _report(message: str) -> None:
     """Log the first message of a process, not of its worker processes."""
@@ -233,6 +228,13 @@ def _report(message: str) -> None:
     if not _is_reported and parent_process() is None:
         _is_reported = True
         _log.warning(message)
+
+
+def claim_message() -> bool:
+    """Return whether no message about the cache was logged yet, and log none from now on."""
+    global _is_reported
+    is_first, _is_reported = not _is_reported, True
+    return is_first
 
 
 def make_folder(folder: Path) -> None:

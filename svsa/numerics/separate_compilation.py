@@ -5,8 +5,10 @@ child stores the code in the cache, from which the server loads it. If it cannot
 reported and the function is compiled in the server.
 """
 
+import contextlib
 import os
 import pickle
+import shutil
 import signal
 import subprocess
 import sys
@@ -14,19 +16,24 @@ import threading
 import time
 from collections.abc import Callable
 from importlib import import_module
+from pathlib import Path
 from threading import Lock
 from typing import Any
 
 from numba.core.errors import NumbaError
 from numba.core.serialize import dumps
 
-from svsa.numerics.code_cache import SharedCache, is_reported
+from svsa.numerics.code_cache import SharedCache, claim_message
 
 CHILD = (
     "import pickle, sys; sys.path[:] = pickle.load(sys.stdin.buffer);"
     " from svsa.numerics.separate_compilation import compile_request; compile_request()"
 )
 WATCH_S = 0.2
+OOM_SCORE = 500
+"""Counts like half of the memory of the machine or container; that of the server is 0."""
+MIN_FREE_BYTES = 32_000_000
+"""Free disk space with which code is compiled in a child: that of a lab is about 20 MB."""
 _INVALID_FUNCTION = 3
 """Exit code of the child if the compiler rejects the function, which the parent reports itself."""
 _MEMORY = "The server keeps the memory of the compiler, up to 0.5 GB, until it ends."
@@ -50,16 +57,29 @@ def build_child(program: str) -> tuple[str, ...]:
     Args:
         program: Python code.
     """
+    # This process reports the problems of the cache, which are found from the first import on.
+    silent = "import logging; logging.getLogger('svsa').setLevel(logging.ERROR)"
     bound = f"from svsa.numerics.separate_compilation import end_with; end_with({os.getpid()})"
-    return sys.executable, "-c", f"{bound}; {program}"
+    return sys.executable, "-c", f"{silent}; {bound}; {program}"
+
+
+def prefer_in_oom() -> None:
+    """Let the kernel end this process, and those that it starts, before its parent if the memory is
+    exhausted (Linux).
+    """
+    with contextlib.suppress(OSError):  # another system, or already preferred more
+        Path("/proc/self/oom_score_adj").write_text(str(OOM_SCORE), encoding="ascii")
 
 
 def end_with(parent: int) -> None:
     """End this process once its parent has ended, which Windows does not report.
 
+    It also ends before its parent if the memory is exhausted.
+
     Args:
         parent: Process id of the parent.
     """
+    prefer_in_oom()
 
     def watch() -> None:
         while os.getppid() == parent:
@@ -126,20 +146,22 @@ def prepare_code(dispatcher: Any, signature: Any) -> None:
 
 
 def can_store(dispatcher: Any) -> bool:
-    """Whether the cache of a compiled function exists and is writable."""
+    """Whether the cache of a compiled function exists, is writable, and has room for its code."""
     cache = dispatcher._cache
-    return isinstance(cache, SharedCache) and os.access(cache.cache_path, os.W_OK)
+    if not isinstance(cache, SharedCache) or not os.access(cache.cache_path, os.W_OK):
+        return False
+    return shutil.disk_usage(cache.cache_path).free >= MIN_FREE_BYTES
 
 
 def _stop_children(dispatcher: Any) -> None:
     """Compile in this process from now on: no child can store its code."""
     report = _reports.pop()
-    if is_reported():
+    if not claim_message():
         return
     report(
         f"Compiled code cannot be stored in {dispatcher._cache.cache_path}: control laws are"
-        f" compiled in the server. {_MEMORY} Make the folder writable, free disk space, or set"
-        " SVSA_CACHE to another folder."
+        f" compiled in the server. {_MEMORY} Make the folder writable, free 32 MB of disk"
+        " space, or set SVSA_CACHE to another folder."
     )
 
 

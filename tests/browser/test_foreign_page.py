@@ -1,15 +1,17 @@
-"""A page of another site and texts with scripts run nothing in the lab, and change nothing there."""
+"""A page of another site, or a text with a script, runs and changes nothing in the lab."""
 
 import re
 
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Dialog, Page, expect
 
-from tests.browser.test_foreign_viewer import Foreign, check_untouched, foreign  # noqa: F401
+from tests.browser import test_foreign_viewer
+from tests.browser.test_foreign_viewer import Foreign, check_untouched
 from tests.lab import Lab
 from tests.waiting import follow_recording
 
 pytestmark = [pytest.mark.browser, pytest.mark.exhaustive]
+foreign = test_foreign_viewer.foreign
 
 PAUSE = "fetch('/api/v1/sessions/lab/pause',{method:'POST'})"
 SCRIPTS = (
@@ -57,7 +59,9 @@ ATTACK = """async (lab) => {
 
 
 def test_page_of_another_site_that_opens_the_lab_reads_and_changes_nothing(
-    page: Page, lab: Lab, foreign: Foreign  # noqa: F811
+    page: Page,
+    lab: Lab,
+    foreign: Foreign,
 ) -> None:
     lab.client.post(lab.session + "/start").raise_for_status()
     (foreign.folder / "opener.html").write_text("<p>A page of another site")
@@ -86,7 +90,10 @@ def test_page_of_another_site_that_opens_the_lab_reads_and_changes_nothing(
     ],
 )
 def test_documentation_reads_no_other_server(
-    page: Page, lab: Lab, foreign: Foreign, query: str  # noqa: F811
+    page: Page,
+    lab: Lab,
+    foreign: Foreign,
+    query: str,
 ) -> None:
     requested: list[str] = []
     page.on("request", lambda request: requested.append(request.url))
@@ -97,7 +104,9 @@ def test_documentation_reads_no_other_server(
 
 
 def test_texts_of_a_run_are_shown_and_not_run(
-    page: Page, lab: Lab, foreign: Foreign  # noqa: F811
+    page: Page,
+    lab: Lab,
+    foreign: Foreign,
 ) -> None:
     path = f"{lab.session}/recording"
     answer = lab.client.post(path, json={"name": SCRIPTS[0]}).raise_for_status().json()
@@ -107,7 +116,12 @@ def test_texts_of_a_run_are_shown_and_not_run(
     follow_recording(lab.client, f"/api/v1/runs/{run}")
     lab.client.post(lab.session + "/start").raise_for_status()
     alerts: list[str] = []
-    page.on("dialog", lambda dialog: (alerts.append(dialog.message), dialog.dismiss()))
+
+    def note_alert(dialog: Dialog) -> None:
+        alerts.append(dialog.message)
+        dialog.dismiss()
+
+    page.on("dialog", note_alert)
     for text in SCRIPTS:
         change = {"name": text, "notes": text, "tags": [text[:30]]}
         lab.client.patch(f"/api/v1/runs/{run}", json=change).raise_for_status()

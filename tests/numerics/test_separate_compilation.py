@@ -8,6 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.server.test_full_disk import filled, mount_disk
+
 PROGRAM = """
 from svsa.numerics import separate_compilation
 from svsa.numerics.compilation import watch_compilation
@@ -60,6 +62,16 @@ def test_failed_child_is_explained_and_replaced(child, reason, count, tmp_path):
     assert last == "compiled here: True"
     assert len(messages) == count
     assert all(reason in message and "in the server" in message for message in messages)
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("free_bytes", [0, 20_000])
+def test_full_disk_costs_no_child_and_is_reported_once(tmp_path, free_bytes):
+    with mount_disk(tmp_path, size="1m") as disk, filled(disk):
+        os.truncate(disk / "filler", (disk / "filler").stat().st_size - free_bytes)
+        message, last = run_program(disk, "raise SystemExit('no child')")
+        assert str(disk) in message
+        assert last == "compiled here: True"
 
 
 @pytest.mark.exhaustive

@@ -27,11 +27,7 @@ PREPARE = (
     f"import os; os.nice({LOWEST_PRIORITY}); from svsa.cli import prepare;"
     f" prepare(); prepare([{PAPERS_LAW!r}], {OTHER!r})"
 )
-COMPILE_FIRST = (
-    # Problems of the cache are reported by the server.
-    "import logging; logging.getLogger('svsa').setLevel(logging.ERROR);"
-    " from svsa.cli import main; main()"
-)
+COMPILE_FIRST = "from svsa.cli import main; main()"
 END_S = 2.0
 
 
@@ -74,7 +70,8 @@ def compile_laws() -> Iterator[None]:
     It has the lowest priority, and ends with the block at the latest.
     """
     laws = [get_law(name).control for name in filter(is_usable, list_law_names())]
-    if all(map(_is_compiled, laws)) and is_compiled_for(OTHER, PAPERS_LAW):
+    is_stored = all(map(_is_compiled, laws)) and is_compiled_for(OTHER, PAPERS_LAW)
+    if is_stored or not can_store(advance):
         yield
         return
     process = subprocess.Popen(  # noqa: S603  this program itself

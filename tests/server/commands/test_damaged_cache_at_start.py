@@ -1,15 +1,18 @@
 """A lab starts with any damage of its folder of compiled code, and names the folder in one line."""
 
 import itertools
+import os
 import shutil
 import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-from tests.lab import run_lab
+from tests.lab import PROGRAM, run_lab
 from tests.numerics.test_damaged_cache import DAMAGES
+from tests.server.test_full_disk import filled, mount_disk
 
 pytestmark = pytest.mark.exhaustive
 UNKNOWN_USER = ("unshare", "--user", "--map-user=54321", "--map-group=54321")
@@ -88,3 +91,28 @@ def test_lab_starts_without_home_and_name(tmp_path: Path, unknown_user: tuple[st
     for _ in range(2):
         (line,) = start(tmp_path, tmp_path, home, TMPDIR=str(tmp_path))
         assert f"stored in {tmp_path / 'svsa-54321'}: this user has no home folder." in line
+
+
+@pytest.mark.parametrize("size", ["1m", "8m"])
+def test_lab_on_a_full_disk_compiles_once(tmp_path: Path, size: str) -> None:
+    lines: list[str] = []
+    session = {"law": "lqi"}
+    with mount_disk(tmp_path, size) as disk:
+        with filled(disk), run_lab(cache=str(disk), lines=lines) as lab:
+            lab.client.post("/api/v1/sessions", json=session).raise_for_status()
+        assert lab.process is not None
+        assert lab.process.stdout is not None
+        lines += lab.process.stdout
+    assert sum(line.startswith("First start: ") for line in lines) == 1
+    assert sum("ompiled code cannot" in line and str(disk) in line for line in lines) == 1
+    assert sum("ompiled" in line for line in lines) == 1
+
+
+def test_command_on_a_full_disk_compiles_once(tmp_path: Path) -> None:
+    with mount_disk(tmp_path, "1m") as disk, filled(disk):
+        command = [sys.executable, "-c", PROGRAM, "compile", "ndobc"]
+        environment = os.environ | {"SVSA_CACHE": str(disk), "COLUMNS": "200"}
+        ran = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
+        first, line = sorted(ran.stderr.splitlines(), key=lambda line: str(disk) in line)
+    assert first.startswith("First start: ")
+    assert str(disk) in line
