@@ -14,6 +14,8 @@ def build_routes() -> list[BaseRoute]:
     """
     modules = pkgutil.walk_packages(__path__, f"{__name__}.")
     routers = (
-        getattr(import_module(found.name), "router", None) for found in modules if not found.ispkg
+        getattr(import_module(module.name), "router", None)
+        for module in modules
+        if not module.ispkg
     )
-    return [route for one in routers if isinstance(one, APIRouter) for route in one.routes]
+    return [route for router in routers if isinstance(router, APIRouter) for route in router.routes]

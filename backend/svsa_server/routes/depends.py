@@ -97,13 +97,13 @@ async def find_session(
     """
     await settle_claims()
     laboratory: Laboratory = connection.app.state.laboratory
-    found = laboratory.get(session)
+    hosted = laboratory.get(session)
     now = time.monotonic()
-    found.lease.hear(client, now)
+    hosted.lease.hear(client, now)
     asked = find_operation(connection.scope)
     if asked[0] in CHANGING and asked not in OPEN_TO_ALL:
-        found.lease.check(client)
-        found.lease.note_command(client, now)
+        hosted.lease.check(client)
+        hosted.lease.note_command(client, now)
 
         def check() -> None:
             # By name: contexts of requests must not keep the memory of sessions that have ended.
@@ -113,7 +113,7 @@ async def find_session(
             _check_revision(laboratory.get(session), revision)
 
         conditions.set(Conditions(check, check_revision))
-    return found
+    return hosted
 
 
 NamedSession = Annotated[HostedSession, Depends(find_session)]

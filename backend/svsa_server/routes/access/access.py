@@ -76,7 +76,7 @@ async def log_in(
 async def join(
     request: Request,
     response: Response,
-    wanted: Annotated[JoinRequest, Body(examples=[{"name": "Ada", "code": "ABCD-2345"}])],
+    credentials: Annotated[JoinRequest, Body(examples=[{"name": "Ada", "code": "ABCD-2345"}])],
 ) -> JoinState | JSONResponse:
     """Join the class with a name and its code; the answer sets a cookie that identifies the user.
 
@@ -86,15 +86,15 @@ async def join(
     """
     authentication = find_class(request)
     address = read_address(request.scope)
-    account = f"{address} {wanted.name.casefold()}"
+    account = f"{address} {credentials.name.casefold()}"
     if (wait_s := request.app.state.rates.check("codes", account)) is not None:
         return _answer_too_many(request, "codes", wait_s)
-    if not await authentication.check_code(wanted.code):
+    if not await authentication.check_code(credentials.code):
         _count(request, "codes", account)
         await authentication.patience.wait(address)
         wrong = "This is not the code of this class: ask the instructor for the current code."
         return answer_problem(401, "wrong_code", wrong)
-    person = await authentication.join(wanted.name, Role[wanted.role.upper()])
+    person = await authentication.join(credentials.name, Role[credentials.role.upper()])
     code = await authentication.renew_rejoin_code(person)
     assert code is not None  # noqa: S101  who has just joined has a membership
     set_cookie(request, response, authentication.sign(person))
@@ -111,11 +111,11 @@ async def join(
 async def rejoin(
     request: Request,
     response: Response,
-    wanted: Annotated[RejoinRequest, Body(examples=[{"code": "ABCD-2345-EFGH"}])],
+    credentials: Annotated[RejoinRequest, Body(examples=[{"code": "ABCD-2345-EFGH"}])],
 ) -> AccessState | JSONResponse:
     """Rejoin as the same person, with their runs and exercises, by the code returned on joining."""
     authentication = find_class(request)
-    membership = await authentication.rejoin(wanted.code)
+    membership = await authentication.rejoin(credentials.code)
     if membership is None:
         await authentication.patience.wait(read_address(request.scope))
         return answer_problem(401, "wrong_code", "No member of this class has this rejoin code.")
@@ -158,7 +158,7 @@ async def leave(request: Request, person: NamedPerson) -> Response:
 async def create_token(
     request: Request,
     person: NamedPerson,
-    wanted: Annotated[TokenRequest, Body(examples=[{"role": "operator"}])],
+    token_request: Annotated[TokenRequest, Body(examples=[{"role": "operator"}])],
 ) -> TokenState:
     """Create a bearer token, returned once: a script logs in as its owner, or as an observer.
 
@@ -166,7 +166,7 @@ async def create_token(
     A script requests control like a user. Scripts of an instructor are operators, too.
     """
     authentication = find_class(request)
-    role = min(person.role, Role[wanted.role.upper()])
+    role = min(person.role, Role[token_request.role.upper()])
     token, script = await authentication.create_token(person, request.headers, role)
     return TokenState(token=token, name=script.name, role=role.word)
 

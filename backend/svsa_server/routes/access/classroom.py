@@ -47,7 +47,7 @@ MemberId = Annotated[
 async def read_class(request: Request, person: NamedPerson) -> ClassState:
     """List the people of the class by name, and the private sessions that the caller may see."""
     people, laboratory = find_class(request).people, _find_laboratory(request)
-    here = {one.id: one for one in people.list_here()}
+    here = {member.id: member for member in people.list_here()}
     for hosted in laboratory.sessions.values():
         for client in hosted.list_viewers():
             if client not in here and (known := people.find(client)) is not None:
@@ -55,10 +55,10 @@ async def read_class(request: Request, person: NamedPerson) -> ClassState:
     members = find_class(request).members
     removed = members.list_ended() if person.role is Role.INSTRUCTOR else []
     seen = [hosted for hosted in laboratory.sessions.values() if person.may_see(hosted.owner)]
-    ordered = sorted(here.values(), key=lambda one: (one.name.casefold(), one.id))
+    ordered = sorted(here.values(), key=lambda member: (member.name.casefold(), member.id))
     return ClassState(
-        people=[_build_person(one, seen) for one in ordered],
-        removed=[_build_member(one) for one in removed],
+        people=[_build_person(member, seen) for member in ordered],
+        removed=[_build_member(member) for member in removed],
         sessions=[
             _build_session(hosted, people.find(hosted.owner)) for hosted in seen if hosted.owner
         ],
@@ -90,8 +90,8 @@ async def change_person(
 async def list_members(request: Request) -> list[Member]:
     """List every member by name and id, also those who are not active or were removed."""
     return [
-        Member(**_build_member(one.person).model_dump(), removed=one.is_ended)
-        for one in find_class(request).members.list_all()
+        Member(**_build_member(membership.person).model_dump(), removed=membership.is_ended)
+        for membership in find_class(request).members.list_all()
     ]
 
 

@@ -95,9 +95,9 @@ def read_job(
 @allow(OPERATOR)
 async def stop_job(request: Request, job: JobId) -> JobState:
     """Stop a job: at once if it waits, otherwise as soon as it can; its result stays readable."""
-    found = find_jobs(request).get(job)
-    found.cancel()
-    return describe_job(found)
+    selected = find_jobs(request).get(job)
+    selected.cancel()
+    return describe_job(selected)
 
 
 @router.get(
@@ -111,11 +111,11 @@ def download_job(request: Request, job: JobId) -> Response:
 
     `svsa falsify run` runs any law in the scenario.
     """
-    found = find_jobs(request).get(job)
-    path, law = _find_result(found)
+    selected = find_jobs(request).get(job)
+    path, law = _find_result(selected)
     if path is None:
         raise StateError(
-            f"The {found.kind} {found.id} is {found.status} and has no file: a tuning or a"
+            f"The {selected.kind} {selected.id} is {selected.status} and has no file: a tuning or a"
             " falsification writes one at its end."
         )
     named = {"Content-Disposition": f'attachment; filename="{law}.toml"'}
@@ -127,24 +127,24 @@ def find_jobs(request: Request) -> Jobs:
     return request.app.state.jobs
 
 
-def _start_tuning(request: Request, jobs: Jobs, wanted: TuningRequest, owner: str) -> Job:
-    build_space(wanted.law, wanted.held)
-    present = _find_present(request, wanted)
-    task = tunings.Task(wanted.law, wanted.budget, wanted.seed, dict(wanted.held), present)
-    return jobs.start("tuning", get_title(wanted.law), tunings.search, task, owner)
+def _start_tuning(request: Request, jobs: Jobs, tuning: TuningRequest, owner: str) -> Job:
+    build_space(tuning.law, tuning.held)
+    present = _find_present(request, tuning)
+    task = tunings.Task(tuning.law, tuning.budget, tuning.seed, dict(tuning.held), present)
+    return jobs.start("tuning", get_title(tuning.law), tunings.search, task, owner)
 
 
-async def _start_falsification(jobs: Jobs, wanted: FalsificationRequest, owner: str) -> Job:
-    adversary = await asyncio.to_thread(wanted.build)
-    task = falsifications.Task(adversary, wanted.runs, wanted.seed)
+async def _start_falsification(jobs: Jobs, falsification: FalsificationRequest, owner: str) -> Job:
+    adversary = await asyncio.to_thread(falsification.build)
+    task = falsifications.Task(adversary, falsification.runs, falsification.seed)
     title = f"{get_title(adversary.law)}: {adversary.title}"
     return jobs.start("falsification", title, falsifications.search, task, owner)
 
 
-def _find_present(request: Request, wanted: TuningRequest) -> Design:
-    if wanted.session is None:
+def _find_present(request: Request, tuning: TuningRequest) -> Design:
+    if tuning.session is None:
         return request.app.state.design
-    hosted = request.app.state.laboratory.get(wanted.session)
+    hosted = request.app.state.laboratory.get(tuning.session)
     configuration = hosted.session.run.configuration
     return Design(**{name: getattr(configuration, name) for name in Design.model_fields})
 

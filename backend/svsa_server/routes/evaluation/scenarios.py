@@ -45,30 +45,32 @@ _TOML = {"application/toml": {"schema": {"type": "string"}}}
 @allow(OBSERVER)
 def list_saved_scenarios() -> list[SavedScenario]:
     """List the saved scenarios of this lab, by name; before the first, the example."""
-    found = list_scenarios() or list_scenarios(EXAMPLES)
-    return [describe_kept(name, one) for name, one in found.items()]
+    scenarios = list_scenarios() or list_scenarios(EXAMPLES)
+    return [describe_kept(name, scenario) for name, scenario in scenarios.items()]
 
 
 @router.post("/runs", responses=BUSY)
 @allow(OPERATOR)
 async def run_scenario(
     work: Work,
-    wanted: Annotated[
+    scenario_runs: Annotated[
         ScenarioRuns, Body(examples=[{"scenario": SCENARIO_EXAMPLE, "laws": ["ndobc"]}])
     ],
 ) -> ScenarioTraceState:
     """Run laws in a scenario: the outcome of each, and its errors over time."""
-    return ScenarioTraceState(**await work.run(run_laws, wanted.scenario, wanted.laws))
+    return ScenarioTraceState(
+        **await work.run(run_laws, scenario_runs.scenario, scenario_runs.laws)
+    )
 
 
 @router.put("/{scenario}")
 @allow(OPERATOR)
 def save_scenario(
-    name: Name, wanted: Annotated[LoadScenario, Body(examples=[SCENARIO_EXAMPLE])]
+    name: Name, load_scenario: Annotated[LoadScenario, Body(examples=[SCENARIO_EXAMPLE])]
 ) -> SavedScenario:
     """Save a scenario under a name that no other one has."""
-    keep_scenario(name, wanted)
-    return describe_kept(name, wanted)
+    keep_scenario(name, load_scenario)
+    return describe_kept(name, load_scenario)
 
 
 @router.get(

@@ -29,9 +29,9 @@ async def estimate_shares(counts: Annotated[list[Counts], _COUNTS]) -> list[Esti
     Repeat the parameter: `?counts=8,2&counts=0,81`. Without trials the share is null, with the
     interval 0 to 1.
     """
-    return [_estimate(*map(int, one.split(","))) for one in counts]
+    return [_estimate(*map(int, pair.split(","))) for pair in counts]
 
 
 def _estimate(count: int, others: int) -> Estimate:
-    found = estimate_share(count, count + others)
-    return Estimate(value=found.value if count + others else None, low=found.low, high=found.high)
+    share = estimate_share(count, count + others)
+    return Estimate(value=share.value if count + others else None, low=share.low, high=share.high)

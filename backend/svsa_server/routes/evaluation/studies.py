@@ -75,7 +75,7 @@ def list_all_studies(request: Request, person: NamedPerson) -> StudyList:
     ]
     return StudyList(
         built_in=built_in,
-        saved=[describe_study(one, _find_job(request, one.name)) for one in kept],
+        saved=[describe_study(stored, _find_job(request, stored.name)) for stored in kept],
         metrics=[
             StudyMetric(name=name, label=format_metric(name), unit=unit)
             for name, unit in METRICS.items()
@@ -152,7 +152,7 @@ async def read_sensitivity(
 ) -> list[SobolIndices]:
     """Compute Sobol indices of an outcome under each law, for a study with Sobol samples."""
     stored = await asyncio.to_thread(_open, study)
-    return [SobolIndices(**one) for one in await work.run(decide, stored, outcome)]
+    return [SobolIndices(**indices) for indices in await work.run(decide, stored, outcome)]
 
 
 @router.get(

@@ -75,8 +75,10 @@ async def predict_heat(
     session = _find_bench(hosted.session)
     run = session.run
     on = [held.load for held in run.loads if held.is_on(run.tick)]
-    found = await asyncio.to_thread(find_endurance, session.bench, run.configuration, [*on, load])
-    return found and EnduranceState(**found._asdict())
+    endurance = await asyncio.to_thread(
+        find_endurance, session.bench, run.configuration, [*on, load]
+    )
+    return endurance and EnduranceState(**endurance._asdict())
 
 
 def _find_bench(session: Session) -> BenchSession:

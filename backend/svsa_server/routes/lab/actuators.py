@@ -74,19 +74,19 @@ async def read_datasheet(
 ) -> Response:
     """Measure the datasheet of an actuator (Grioli et al., IJRR 2015), once for all requests."""
     async with _measuring:
-        found = await asyncio.to_thread(_measure, mechanism.name)
+        datasheet = await asyncio.to_thread(_measure, mechanism.name)
     name = f"{mechanism.name}-datasheet.{format}"
     headers = {"Content-Disposition": f'inline; filename="{name}"'}
     if format == "pdf":
         require_extra("plot")
-        page = await asyncio.to_thread(_draw, found)
+        page = await asyncio.to_thread(_draw, datasheet)
         return Response(page, media_type="application/pdf", headers=headers)
-    return JSONResponse(describe_datasheet(found).model_dump(mode="json"), headers=headers)
+    return JSONResponse(describe_datasheet(datasheet).model_dump(mode="json"), headers=headers)
 
 
-def _draw(found: Datasheet) -> bytes:
+def _draw(datasheet: Datasheet) -> bytes:
     from svsa.analysis.datasheet.page import draw_page
 
     stream = io.BytesIO()
-    draw_page(found).savefig(stream, format="pdf")
+    draw_page(datasheet).savefig(stream, format="pdf")
     return stream.getvalue()

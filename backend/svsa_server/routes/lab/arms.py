@@ -59,9 +59,9 @@ def change_arm(
             ' {"from": "arm"}.'
         )
     changed = configuration.changed(arm=patch.apply_to(configuration.arm))
-    given = patch.list_given()
-    if set(given) <= set(AT_ONCE):
-        for kind, value in given.items():
+    fields = patch.list_given()
+    if set(fields) <= set(AT_ONCE):
+        for kind, value in fields.items():
             session.set(Set(kind, value))
     elif changed != configuration:
         session.load(changed.with_loads_of(session.journal.initial))

@@ -65,14 +65,14 @@ def compare_claim(
     fl, ndobc = (measure_claim(rows[:, lane], run.period_s) for lane in (0, 1))
     judged = judge_claim(figure, fl, ndobc)
     return ClaimState(
-        numbers=[_tell(law, one) for law, one in zip(laws, (fl, ndobc), strict=True)],
+        numbers=[
+            _describe_numbers(law, numbers) for law, numbers in zip(laws, (fl, ndobc), strict=True)
+        ],
         parts=[ClaimPart.model_validate({"part": part, "holds": judged[part]}) for part in judged],
     )
 
 
-def _tell(law: str, numbers: ClaimNumbers) -> ClaimNumbersState:
+def _describe_numbers(law: str, numbers: ClaimNumbers) -> ClaimNumbersState:
     """Replace NaN by null for JSON."""
-    reported = {
-        name: value if value == value else None for name, value in numbers._asdict().items()
-    }
-    return ClaimNumbersState(law=law, **reported)
+    values = {name: value if value == value else None for name, value in numbers._asdict().items()}
+    return ClaimNumbersState(law=law, **values)

@@ -107,8 +107,8 @@ async def _predict(session: Session, request: PredictionRequest) -> Prediction:
         except ParameterError as error:
             return _refuse(configuration.law, _describe(error), position, stiffness, sigma)
         configuration = configuration.changed(gains=gains)
-    found = await asyncio.to_thread(prediction.predict, configuration, sigma)
-    return _build_prediction(configuration, found, sigma)
+    predicted = await asyncio.to_thread(prediction.predict, configuration, sigma)
+    return _build_prediction(configuration, predicted, sigma)
 
 
 def _describe(error: ParameterError) -> str:
@@ -138,23 +138,23 @@ def _refuse(
 
 
 def _build_prediction(
-    configuration: Configuration, found: prediction.Prediction, sigma: float
+    configuration: Configuration, predicted: prediction.Prediction, sigma: float
 ) -> Prediction:
-    noise, demand = found.noise, found.demand
+    noise, demand = predicted.noise, predicted.demand
     is_own = configuration.effects.encoders is not None
     return Prediction(
-        verdict=found.verdict,
+        verdict=predicted.verdict,
         reasons=[
             ReasonState(kind=reason.kind, code=reason.code, message=reason.message)
-            for reason in found.reasons
+            for reason in predicted.reasons
         ],
         stiffness_nm_per_rad=sigma,
         position_roots_rad_per_s=_build_roots(configuration.gains.position_roots),
         stiffness_roots_rad_per_s=_build_roots(configuration.gains.stiffness_roots),
         law=get_title(configuration.law),
-        steady=_build_steady(found.steady),
-        adds_estimate=found.adds_estimate,
-        fl=_build_steady(found.fl),
+        steady=_build_steady(predicted.steady),
+        adds_estimate=predicted.adds_estimate,
+        fl=_build_steady(predicted.fl),
         noise=LoopNoiseState(
             torque1_rms_nm=noise.u1 if math.isfinite(noise.u1) else None,
             torque2_rms_nm=noise.u2 if math.isfinite(noise.u2) else None,

@@ -36,7 +36,7 @@ async def excite(
     locate: Locate,
     hosted: NamedSession,
     person: NamedPerson,
-    wanted: Annotated[ExcitationRequest, Body(examples=[{"name": "Identification"}])],
+    excitation: Annotated[ExcitationRequest, Body(examples=[{"name": "Identification"}])],
 ) -> SessionState:
     """Play the identification excitation from now on and record it, 32 s; starts a paused session.
 
@@ -48,7 +48,7 @@ async def excite(
     if hosted.session.status != "running":
         await run_waiting(hosted.session.start)
     run_id = await request.app.state.recordings.start(
-        hosted.session, wanted.name, (TAG,), "", owner=person.id
+        hosted.session, excitation.name, (TAG,), "", owner=person.id
     )
     locate(f"/runs/{run_id}")
     hosted.begin_excitation()

@@ -84,10 +84,10 @@ def apply_load(
 @allow(OBSERVER)
 def read_load(hosted: NamedSession, load_id: int) -> LoadState:
     """Read a load of a session."""
-    found = [load for load in build_state(hosted).loads if load.id == load_id]
-    if not found:
+    matches = [load for load in build_state(hosted).loads if load.id == load_id]
+    if not matches:
         raise _refuse(load_id)
-    return found[0]
+    return matches[0]
 
 
 @router.delete("")

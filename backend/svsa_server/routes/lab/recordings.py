@@ -22,7 +22,7 @@ async def start_recording(
     locate: Locate,
     hosted: NamedSession,
     person: NamedPerson,
-    wanted: Annotated[RecordingRequest, Body(examples=[{"name": "3 kg at 15 N·m/rad"}])],
+    recording: Annotated[RecordingRequest, Body(examples=[{"name": "3 kg at 15 N·m/rad"}])],
 ) -> SessionState:
     """Start a recording of every sample and command, at full rate; rejected during a fault."""
     if hosted.session.status == "fault":
@@ -32,7 +32,7 @@ async def start_recording(
         )
     await request.app.state.quota.check(person.id)
     run_id = await request.app.state.recordings.start(
-        hosted.session, wanted.name, wanted.tags, wanted.notes, owner=person.id
+        hosted.session, recording.name, recording.tags, recording.notes, owner=person.id
     )
     locate(f"/runs/{run_id}")
     return build_state(hosted)

@@ -48,7 +48,7 @@ async def list_sessions(
 ) -> list[SessionState]:
     """List the sessions of this server; in a class the shared one and those of the caller."""
     hosted = request.app.state.laboratory.sessions.values()
-    return [build_state(one) for one in hosted if person.may_see(one.owner)]
+    return [build_state(session) for session in hosted if person.may_see(session.owner)]
 
 
 @router.post("", status_code=201, responses=CREATED)
@@ -58,7 +58,7 @@ async def create_session(
     locate: Locate,
     _: NamedClient,
     person: NamedPerson,
-    wanted: Annotated[
+    source: Annotated[
         SessionRequest,
         Body(
             examples=[
@@ -78,7 +78,7 @@ async def create_session(
 
     The lab ends it automatically when it is unused. It is running; a session from a run is paused.
     """
-    hosted = await open_session(request.app, wanted, person.id)
+    hosted = await open_session(request.app, source, person.id)
     locate(f"/sessions/{hosted.session.name}")
     return build_state(hosted)
 
@@ -158,7 +158,7 @@ async def load_experiment(
     request: Request,
     hosted: NamedSession,
     person: NamedPerson,
-    wanted: Annotated[
+    experiment: Annotated[
         ExperimentRequest,
         Body(
             examples=[
@@ -170,19 +170,19 @@ async def load_experiment(
     ],
 ) -> SessionState:
     """Set a session to a figure or an exercise's experiment, or back to before the exercise."""
-    if isinstance(wanted, ExerciseExperiment):
-        await set_up_step(request, hosted, person, wanted.exercise, wanted.step)
+    if isinstance(experiment, ExerciseExperiment):
+        await set_up_step(request, hosted, person, experiment.exercise, experiment.step)
         return build_state(hosted)
-    if isinstance(wanted, SettingsBeforeExercise):
+    if isinstance(experiment, SettingsBeforeExercise):
         await restore_settings(hosted)
         return build_state(hosted)
     session = hosted.session
     check_svsa(session)
-    configuration = wanted.build_configuration(request.app.state.design)
+    configuration = experiment.build_configuration(request.app.state.design)
 
     def begin() -> None:
         session.load(configuration)
-        if wanted.start:
+        if experiment.start:
             session.start()
         else:
             session.pause()

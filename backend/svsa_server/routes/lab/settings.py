@@ -267,11 +267,11 @@ def _apply(patch: Checked, section: str, actuator: MechanismParameters) -> Mecha
 
 
 def _merge(
-    held: dict[str, LawParameters], given: dict[str, dict[str, Any]]
+    held: dict[str, LawParameters], changes: dict[str, dict[str, Any]]
 ) -> dict[str, LawParameters]:
-    """Merge the given parameters into the current ones, by law."""
+    """Return the current parameters of the laws, with these changes, by law."""
     changed = dict(held)
-    for law, values in given.items():
+    for law, values in changes.items():
         try:
             check_installed(law)
         except ParameterError as error:

@@ -80,15 +80,15 @@ def list_runs(
 
     In a class: runs of the shared session and the user's own; for instructors all.
     """
-    wanted = RunQuery(search, tag, law, load, figure, plant, sort, page, page_size, trash)
+    run_query = RunQuery(search, tag, law, load, figure, plant, sort, page, page_size, trash)
     if person.role is not Role.INSTRUCTOR:
-        wanted = dataclasses.replace(wanted, reader=Reader(person.id, SHARED_SESSION))
-    found, facets = runs.query(wanted), runs.list_facets(wanted.reader)
+        run_query = dataclasses.replace(run_query, reader=Reader(person.id, SHARED_SESSION))
+    matches, facets = runs.query(run_query), runs.list_facets(run_query.reader)
     return RunList(
-        runs=[RunSummary(**values) for values in _list_values(runs, *found.runs)],
-        total=found.total,
-        page=found.page,
-        page_size=found.page_size,
+        runs=[RunSummary(**values) for values in _list_values(runs, *matches.runs)],
+        total=matches.total,
+        page=matches.page,
+        page_size=matches.page_size,
         tags=facets["tag"],
         facets=facets,
         indexing=request.app.state.indexing.progress,
@@ -105,7 +105,7 @@ def read_run(runs: Runs, run_id: RunId) -> RunDetails:
     segments = list_record_segments(record, timeline)
     windows = [] if timeline is None else timeline.windows
     return RunDetails(
-        **_tell(runs, entry),
+        **_describe_run(runs, entry),
         lane_names=name_lanes(segments),
         segments=segments,
         windows=[build_window(window, record.header.period_s) for window in windows],
@@ -135,17 +135,17 @@ def change_run(
     entry = runs.update(
         run_id, name=patch.name, tags=patch.tags, notes=patch.notes, expected=expected
     )
-    return RunSummary(**_tell(runs, entry))
+    return RunSummary(**_describe_run(runs, entry))
 
 
 @router.delete("/runs/{run_id}")
 @allow(OPERATOR)
 def delete_run(runs: Runs, run_id: ChangedRunId) -> RunSummary:
     """Delete a run: it is in the trash, until `PATCH` with `"deleted": false` restores it."""
-    return RunSummary(**_tell(runs, runs.delete(run_id)))
+    return RunSummary(**_describe_run(runs, runs.delete(run_id)))
 
 
-def _tell(runs: Catalogue, entry: RunEntry) -> dict[str, Any]:
+def _describe_run(runs: Catalogue, entry: RunEntry) -> dict[str, Any]:
     (values,) = _list_values(runs, entry)
     return values
 

@@ -42,11 +42,11 @@ def read_difference(
 ) -> RunDifference:
     """List the settings that differ between a run and other runs."""
     ids = [run_id, *other]
-    found = compare_settings([runs.open(one) for one in ids])
+    differences = compare_settings([runs.open(identifier) for identifier in ids])
     return RunDifference(
         runs=ids,
-        titles=[runs.get(one).title for one in ids],
-        differences=[SettingDifference(**asdict(one)) for one in found],
+        titles=[runs.get(identifier).title for identifier in ids],
+        differences=[SettingDifference(**asdict(difference)) for difference in differences],
     )
 
 
@@ -55,13 +55,13 @@ def read_difference(
 def judge_run(
     runs: Runs,
     run_id: RunId,
-    wanted: Annotated[VerdictRequest, Body(examples=[EXAMPLE])],
+    comparison: Annotated[VerdictRequest, Body(examples=[EXAMPLE])],
 ) -> RunVerdict:
     """Compare a run with another within tolerances: verdict and worst time of each channel."""
-    run, other = runs.open(run_id), runs.open(wanted.other)
-    begins = FROM_THE_FIRST if wanted.align == "start" else _align_windows(run, other)
-    verdict = judge(run, other, wanted.tolerances, wanted.rest, begins)
-    points = wanted.points
+    run, other = runs.open(run_id), runs.open(comparison.other)
+    begins = FROM_THE_FIRST if comparison.align == "start" else _align_windows(run, other)
+    verdict = judge(run, other, comparison.tolerances, comparison.rest, begins)
+    points = comparison.points
     return RunVerdict(
         held=verdict.held,
         ticks=verdict.ticks,
@@ -70,11 +70,11 @@ def judge_run(
         other_ticks=verdict.other_ticks,
         begin_s=(run.first_tick + begins[0]) * run.header.period_s,
         other_begin_s=(other.first_tick + begins[1]) * other.header.period_s,
-        channels=[build_channel_state(one) for one in verdict.channels],
+        channels=[build_channel_state(channel) for channel in verdict.channels],
         not_compared=list(verdict.not_compared),
         bands={
             name: _draw_bands(other, name, tolerance, begins[1], verdict.ticks, points)
-            for name, tolerance in (wanted.tolerances if points else {}).items()
+            for name, tolerance in (comparison.tolerances if points else {}).items()
         },
     )
 
@@ -82,12 +82,12 @@ def judge_run(
 def _align_windows(run: Record, other: Record) -> tuple[int, int]:
     """Align two runs: their first samples at the same distance from their measured windows."""
     starts: list[int] = []
-    for one in (run, other):
-        window = find_measured_window(one)
+    for record in (run, other):
+        window = find_measured_window(record)
         if window is None:
             text = "has no window to align: align them at the start."
-            raise RecordError(f"Run {one.header.run_id} {text}")
-        starts.append(window.first_tick - one.first_tick)
+            raise RecordError(f"Run {record.header.run_id} {text}")
+        starts.append(window.first_tick - record.first_tick)
     before = min(starts)
     return starts[0] - before, starts[1] - before
 

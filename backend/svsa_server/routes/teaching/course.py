@@ -73,7 +73,9 @@ def read_course(request: Request, person: NamedPerson) -> CourseState:
     kept = find_store(request).read(person.id)
     exercises = request.app.state.course
     return CourseState(
-        exercises=[describe_summary(one, kept.get(one.name)) for one in exercises.values()]
+        exercises=[
+            describe_summary(exercise, kept.get(exercise.name)) for exercise in exercises.values()
+        ]
     )
 
 
@@ -81,8 +83,8 @@ def read_course(request: Request, person: NamedPerson) -> CourseState:
 @allow(OBSERVER)
 def read_exercise(request: Request, person: NamedPerson, exercise: ExerciseName) -> ExerciseState:
     """Read an exercise with the text of its steps, and the progress of the caller."""
-    found = _find_exercise(request, exercise)
-    return describe_exercise(found, find_store(request).read(person.id).get(exercise))
+    definition = _find_exercise(request, exercise)
+    return describe_exercise(definition, find_store(request).read(person.id).get(exercise))
 
 
 @router.put("/course/{exercise}/place")
@@ -91,10 +93,10 @@ def set_exercise_place(
     request: Request,
     person: NamedPerson,
     exercise: ExerciseName,
-    wanted: Annotated[PlaceRequest, Body(examples=[{"step": "predict-error"}])],
+    place: Annotated[PlaceRequest, Body(examples=[{"step": "predict-error"}])],
 ) -> ExerciseState:
     """Save the step at which the caller is; steps before it that are only read count as read."""
-    return _change(request, person, exercise, lambda e, p: visit_step(e, p, wanted.step))
+    return _change(request, person, exercise, lambda e, p: visit_step(e, p, place.step))
 
 
 @router.put("/course/{exercise}/steps/{step}/answer")
@@ -104,16 +106,16 @@ def answer_step(
     person: NamedPerson,
     exercise: ExerciseName,
     step: StepInPath,
-    wanted: Annotated[AnswerRequest, Body(examples=[{"answer": 12.0}])],
+    reply: Annotated[AnswerRequest, Body(examples=[{"answer": 12.0}])],
 ) -> ExerciseState:
     """Save a prediction (final once its run is set up), or choose an answer (once)."""
 
-    def keep(found: Exercise, progress: ExerciseProgress) -> ExerciseProgress:
-        progress = keep_answer(found, progress, step, wanted.answer)
-        one = found.find_step(step)
-        if isinstance(one, Predict):
+    def keep(definition: Exercise, progress: ExerciseProgress) -> ExerciseProgress:
+        progress = keep_answer(definition, progress, step, reply.answer)
+        question = definition.find_step(step)
+        if isinstance(question, Predict):
             return progress
-        results = judge_step(found, one, {step: wanted.answer}, {})
+        results = judge_step(definition, question, {step: reply.answer}, {})
         return progress.with_step(step, results=tuple(results))
 
     return _change(request, person, exercise, keep)
@@ -127,19 +129,19 @@ def check_experiment(
     runs: Runs,
     exercise: ExerciseName,
     step: StepInPath,
-    wanted: Annotated[RunRequest, Body(examples=[{"run_id": "20260102-030405-9f8e7d6c"}])],
+    run: Annotated[RunRequest, Body(examples=[{"run_id": "20260102-030405-9f8e7d6c"}])],
 ) -> list[CriterionResult]:
     """Grade a recorded run of the caller, and with it the predictions; the best run counts."""
-    found = _find_exercise(request, exercise)
-    asked = found.find_step(step)
-    if not isinstance(asked, Experiment):
+    definition = _find_exercise(request, exercise)
+    experiment = definition.find_step(step)
+    if not isinstance(experiment, Experiment):
         raise StateError(f"Step {step!r} is not an experiment: it has no run to assess.")
-    result = _open_own(runs, person, wanted.run_id)
+    result = _open_own(runs, person, run.run_id)
     judged: list[CriterionResult] = []
 
-    def keep(found: Exercise, progress: ExerciseProgress) -> ExerciseProgress:
-        judged[:] = judge_run(found, asked, progress.answers, result)
-        return keep_run(found, progress, step, wanted.run_id, judged)
+    def keep(definition: Exercise, progress: ExerciseProgress) -> ExerciseProgress:
+        judged[:] = judge_run(definition, experiment, progress.answers, result)
+        return keep_run(definition, progress, step, run.run_id, judged)
 
     _change(request, person, exercise, keep)
     return judged
@@ -152,7 +154,7 @@ async def try_submission_law(
     person: NamedPerson,
     work: Work,
     exercise: ExerciseName,
-    wanted: Annotated[
+    draft: Annotated[
         CourseLawRequest, Body(examples=[{"text": "def law(*given): return 0.0, 0.0\n"}])
     ],
 ) -> ExerciseState:
@@ -161,9 +163,9 @@ async def try_submission_law(
     The law that was saved last is submitted. It is saved even if it fails, or if this machine
     cannot isolate it and does not run it.
     """
-    found = _find_exercise(request, exercise)
-    check_takes_law(found, find_store(request).read(person.id).get(exercise))
-    law = await work.run(law_trial.try_law, wanted.text)
+    definition = _find_exercise(request, exercise)
+    check_takes_law(definition, find_store(request).read(person.id).get(exercise))
+    law = await work.run(law_trial.try_law, draft.text)
     return await asyncio.to_thread(
         _change, request, person, exercise, lambda e, p: keep_law(e, p, law)
     )
@@ -177,7 +179,7 @@ def submit_exercise(
     person: NamedPerson,
     runs: Runs,
     exercise: ExerciseName,
-    wanted: Annotated[SubmissionRequest, Body(examples=[{"student": "Ada"}])],
+    signature: Annotated[SubmissionRequest, Body(examples=[{"student": "Ada"}])],
 ) -> Judgement:
     """Submit the saved answers of an exercise, once; it is assessed and saved as a file.
 
@@ -186,18 +188,20 @@ def submit_exercise(
     store = find_store(request)
     judged: list[Judgement] = []
 
-    def keep(found: Exercise, progress: ExerciseProgress) -> ExerciseProgress:
-        missing = find_missing(found, progress)
+    def keep(definition: Exercise, progress: ExerciseProgress) -> ExerciseProgress:
+        missing = find_missing(definition, progress)
         if progress.submitted_at is not None:
             raise StateError(f"Exercise {exercise!r} was submitted already.")
         if missing:
             raise StateError(f"Incomplete steps: {', '.join(missing)}.")
-        student = person.name or wanted.student.strip() or _AT_HOME
-        given = progress.build_submission(exercise, student)
+        student = person.name or signature.student.strip() or _AT_HOME
+        submission = progress.build_submission(exercise, student)
         path = store.find_submission(exercise, person.id)
         path.parent.mkdir(parents=True, exist_ok=True)
-        judged.append(judge_submission(found, given, lambda run: _open_own(runs, person, run)))
-        given.write(path)
+        judged.append(
+            judge_submission(definition, submission, lambda run: _open_own(runs, person, run))
+        )
+        submission.write(path)
         now = datetime.now(UTC).isoformat(timespec="seconds")
         return progress.changed(submitted_at=now, points=judged[0].points)
 
@@ -227,14 +231,14 @@ def _change(
     change: Callable[[Exercise, ExerciseProgress], ExerciseProgress],
 ) -> ExerciseState:
     """Change and save a student's progress in an exercise."""
-    found, store = _find_exercise(request, exercise), find_store(request)
+    definition, store = _find_exercise(request, exercise), find_store(request)
     with store.lock:
         kept = store.read(person.id)
         before = kept.get(exercise)
-        progress = change(found, before).changed(changes=before.changes + 1)
+        progress = change(definition, before).changed(changes=before.changes + 1)
         exercises = {**kept.exercises, exercise: progress}
         store.write(person.id, kept.changed(exercises=exercises))
-    return describe_exercise(found, progress)
+    return describe_exercise(definition, progress)
 
 
 async def set_up_step(
@@ -248,8 +252,8 @@ async def set_up_step(
     Raises:
         StateError: If a prediction is missing, the bench moves, or the step is a simulation only.
     """
-    found = _find_exercise(request, exercise)
-    step, session = found.find_step(name), hosted.session
+    definition = _find_exercise(request, exercise)
+    step, session = definition.find_step(name), hosted.session
     if isinstance(step, Experiment):
         if isinstance(session, BenchSession):
             check_for_step(session, step)
@@ -258,18 +262,18 @@ async def set_up_step(
         else:
             check_svsa(session)
     await asyncio.to_thread(
-        _change, request, person, found.name, lambda e, p: begin_step(e, p, name)
+        _change, request, person, definition.name, lambda e, p: begin_step(e, p, name)
     )
     assert isinstance(step, Experiment)  # noqa: S101
     before = hosted.before_exercise or BeforeExercise(
-        session.journal.build_restart(), session.status == "running", found.name
+        session.journal.build_restart(), session.status == "running", definition.name
     )
     if isinstance(session, BenchSession):
         await run_waiting(set_up_bench, session, step.bench_configuration)
     else:
         await run_waiting(session.pause)
         await run_waiting(session.load, step.configuration)
-    hosted.keep_before_exercise(before._replace(exercise=found.name))
+    hosted.keep_before_exercise(before._replace(exercise=definition.name))
 
 
 async def restore_settings(hosted: HostedSession) -> None:
@@ -291,11 +295,11 @@ async def restore_settings(hosted: HostedSession) -> None:
 
 
 def _find_exercise(request: Request, name: str) -> Exercise:
-    found = request.app.state.course.get(name)
-    if found is None:
+    exercise = request.app.state.course.get(name)
+    if exercise is None:
         known = ", ".join(request.app.state.course)
         raise UnknownError(f"There is no exercise {name!r:.80}; there are {known}.")
-    return found
+    return exercise
 
 
 def find_store(request: Request) -> ProgressStore:

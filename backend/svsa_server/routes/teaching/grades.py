@@ -61,9 +61,9 @@ async def read_grades(
 
     The instructor reads the complete class; a student reads their own grades only.
     """
-    wanted = person if caller.role is Role.INSTRUCTOR else caller.id
-    listed = await asyncio.to_thread(list_graded, find_store(request), wanted or None)
-    submitted = [one._replace(problem=hide_places(one.problem)) for one in listed]
+    student = person if caller.role is Role.INSTRUCTOR else caller.id
+    listed = await asyncio.to_thread(list_graded, find_store(request), student or None)
+    submitted = [graded._replace(problem=hide_places(graded.problem)) for graded in listed]
     if written == "csv":
         named = {"Content-Disposition": 'attachment; filename="grades.csv"'}
         table = write_csv(list(list_grades(submitted)))
@@ -83,7 +83,7 @@ async def grade_class(
     request: Request,
     locate: Locate,
     person: NamedPerson,
-    wanted: Annotated[GradingRequest, Body(examples=[{"again": False}])],
+    grading: Annotated[GradingRequest, Body(examples=[{"again": False}])],
 ) -> JobState:
     """Start a job that grades the submissions without a grade, or all of them again.
 
@@ -100,9 +100,9 @@ async def grade_class(
         request.app.state.course,
         request.app.state.catalogue.folder,
         store.folder / BOOK_FOLDER,
-        wanted.again,
+        grading.again,
     )
-    title = "Everything again" if wanted.again else "What has no grade"
+    title = "Everything again" if grading.again else "What has no grade"
     job = find_jobs(request).start(KIND, title, grade_all, task, person.id)
     locate(f"/jobs/{job.id}")
     return describe_job(job)

@@ -79,7 +79,7 @@ async def submit_law(
     request: Request,
     locate: Locate,
     person: NamedPerson,
-    wanted: Annotated[
+    submission: Annotated[
         LawSubmission,
         Body(examples=[{"name": "Nothing", "law": "def law(*given): return 0.0, 0.0\n"}]),
     ],
@@ -89,7 +89,7 @@ async def submit_law(
     The same text has one entry, which is not changed. If this machine cannot isolate a law, nothing
     is measured.
     """
-    law = wanted.law.encode()
+    law = submission.law.encode()
     key = digest_law(law)
     started = await asyncio.to_thread(Board.find_started, _find_folder(request))
     if started is not None and started.find(key) is not None:
@@ -97,7 +97,7 @@ async def submit_law(
         return SubmissionState(key=key, job=None)
     await asyncio.to_thread(check_isolation)
     board = await _open_board(request)
-    task = Task(board.folder, wanted.name, law, person.name or wanted.author, person.id)
+    task = Task(board.folder, submission.name, law, person.name or submission.author, person.id)
     job = _begin(request, person, task)
     locate(f"/jobs/{job.id}")
     return SubmissionState(key=key, job=job)

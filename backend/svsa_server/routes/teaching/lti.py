@@ -76,17 +76,17 @@ async def begin_login(request: Request) -> Response:
 async def launch(request: Request) -> Response:
     """Launch a person with the platform's token: into the class, to an exercise."""
     tool, authentication, base = _find_tool(request), find_class(request), str(request.base_url)
-    given, cookie = await _read_form(request), request.cookies.get(COOKIE, "")
+    form, cookie = await _read_form(request), request.cookies.get(COOKIE, "")
     course = request.app.state.course
     try:
-        platform, reported = await tool.take(given, cookie)
-        place = tool.find_landing(reported, base, course)
-        person = await tool.admit(authentication, platform, reported)
+        platform, launched = await tool.take(form, cookie)
+        place = tool.find_landing(launched, base, course)
+        person = await tool.admit(authentication, platform, launched)
     except LaunchError as error:
         return _refuse(request, error)
     from svsa_server.lti.tool import find_exercise
 
-    await asyncio.to_thread(tool.learn, platform, reported, person, find_exercise(place))
+    await asyncio.to_thread(tool.learn, platform, launched, person, find_exercise(place))
     request.app.state.audit.write(
         action="lti launch", person=person.id, name=person.name, role=person.role.word,
         platform=platform.issuer, place=place, problem=None,
