@@ -97,7 +97,7 @@ def describe_falsification(job: Job, is_under_way: bool) -> FalsificationResult:
         is_under_way: Whether it was running before its files are read; it may end in between.
     """
     task = job.task
-    found = None if is_under_way else read_found(job.folder)
+    result = None if is_under_way else read_found(job.folder)
     worst = read_worst(job.folder)
     return FalsificationResult(
         law=task.adversary.law,
@@ -105,7 +105,7 @@ def describe_falsification(job: Job, is_under_way: bool) -> FalsificationResult:
         seed=task.seed,
         adversary=task.adversary.model_dump(mode="json"),
         worst=worst and dump_scenario(worst),
-        scenario=found and dump_scenario(found.scenario),
-        steps=found.steps if found else [],
-        outcomes=[LawOutcomeState(**one) for one in found.outcomes] if found else [],
+        scenario=result and dump_scenario(result.scenario),
+        steps=result.steps if result else [],
+        outcomes=[LawOutcomeState(**outcome) for outcome in result.outcomes] if result else [],
     )

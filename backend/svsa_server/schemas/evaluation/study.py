@@ -55,10 +55,11 @@ class StudyRequest(Checked):
     success: Success | None = quantity("", "Success criterion", default=None)
 
     @model_validator(mode="after")
-    def _check_one(self) -> Self:
+    def _check_source(self) -> Self:
         if (self.source is None) == (self.text is None):
-            given = None if self.source is None else self.source
-            raise ParameterError(Violation("source", given, "", "given, or else text, not both"))
+            raise ParameterError(
+                Violation("source", self.source, "", "given, or else text, not both")
+            )
         return self
 
     def build(self, person: Person) -> tuple[str, Study]:
@@ -71,7 +72,7 @@ class StudyRequest(Checked):
             ParameterError: If the study is invalid.
         """
         asked = ("runs", "laws", "metrics", "success")
-        changes = {name: one for name in asked if (one := getattr(self, name)) is not None}
+        changes = {name: value for name in asked if (value := getattr(self, name)) is not None}
         if self.text is not None:
             name, study = self.name or OWN_NAME, parse_study(self.text, **changes)
         else:
@@ -98,10 +99,10 @@ def _find(source: str) -> Study:
 def _find_free(name: str, person: Person) -> str:
     """Find a free name: with a number if another person has a study of this name."""
     numbered = (f"{name}-{number}" for number in itertools.count(2))
-    for one in itertools.chain([name], numbered):
-        owner = read_owner(one)
+    for candidate in itertools.chain([name], numbered):
+        owner = read_owner(candidate)
         if owner is None or person.may_change(owner):
-            return one
+            return candidate
     raise AssertionError(name)
 
 
@@ -264,7 +265,7 @@ def describe_study(stored: StoredStudy, job: Job | None) -> StudyState:
 def _describe_columns(study: Study) -> list[StudyColumn]:
     varied = {variation.column: variation for variation in study.vary}
     base = study.build_base(study.laws[0])
-    named = {column: name_variation(base, one) for column, one in varied.items()}
+    named = {column: name_variation(base, variation) for column, variation in varied.items()}
     columns = []
     for field in build_schema(study):
         role = "row"
@@ -274,12 +275,12 @@ def _describe_columns(study: Study) -> list[StudyColumn]:
             role = "metric"
         elif field.name in (SUCCEEDED, "fault", "fault_tick"):
             role = "outcome"
-        one = varied.get(field.name)
+        variation = varied.get(field.name)
         name = named.get(field.name) or SettingName(
             format_metric(field.name), METRICS.get(field.name, "")
         )
-        is_log = one is not None and (
-            one.kind == "log_uniform" or getattr(one, "spacing", "") == "log"
+        is_log = variation is not None and (
+            variation.kind == "log_uniform" or getattr(variation, "spacing", "") == "log"
         )
         columns.append(
             StudyColumn(

@@ -94,11 +94,11 @@ def describe_tuning(tuning: Job, is_under_way: bool, first: int | None) -> Tunin
     """
     task, tried = tuning.task, read_candidates(tuning.folder)
     space = build_space(task.law, task.held)
-    candidates = [one for one in tried if one["stage"] != "validation"]
-    finals = [one for one in tried if one["stage"] == "validation"]
+    candidates = [candidate for candidate in tried if candidate["stage"] != "validation"]
+    finals = [candidate for candidate in tried if candidate["stage"] == "validation"]
     is_final = bool(finals) and not is_under_way
     best: dict[str, Any] | None = min(
-        finals if is_final else candidates, key=lambda one: one["cost"], default=None
+        finals if is_final else candidates, key=lambda candidate: candidate["cost"], default=None
     )
     setting = None
     if best is not None:
@@ -108,20 +108,22 @@ def describe_tuning(tuning: Job, is_under_way: bool, first: int | None) -> Tunin
             if has_own_parameters(task.law)
             else Lane(law=task.law, gains=design.gains, observer=design.observer)
         )
-    reported = [] if first is None else candidates[first:]
+    listed = [] if first is None else candidates[first:]
     return TuningResult(
         law=task.law,
         budget=task.budget,
         seed=task.seed,
         held=task.held,
         axes=[
-            AxisState(name=one.label, symbol=one.symbol, unit=one.unit, low=one.low, high=one.high)
-            for one in space.axes
+            AxisState(
+                name=axis.label, symbol=axis.symbol, unit=axis.unit, low=axis.low, high=axis.high
+            )
+            for axis in space.axes
         ],
         tried=len(candidates),
         noise_limit_nm_per_s=find_noise_limit() if candidates else None,
-        candidates=[CandidateState(**one) for one in reported],
-        finals=[CandidateState(**one) for one in finals],
+        candidates=[CandidateState(**candidate) for candidate in listed],
+        finals=[CandidateState(**candidate) for candidate in finals],
         present=CandidateState(**candidates[0]) if candidates else None,
         best=CandidateState(**best) if best else None,
         best_setting=setting,

@@ -76,10 +76,10 @@ class DatasheetState(Datasheet):
     )
 
 
-def describe_datasheet(found: Datasheet) -> DatasheetState:
+def describe_datasheet(datasheet: Datasheet) -> DatasheetState:
     """Build the answer: a datasheet with its table for display."""
     return DatasheetState(
-        **dict(found), rows=list_rows(found), published_rows=list_published(found)
+        **dict(datasheet), rows=list_rows(datasheet), published_rows=list_published(datasheet)
     )
 
 
@@ -105,14 +105,14 @@ def describe_actuator(mechanism: Mechanism) -> ActuatorState:
         limits=mechanism.limits,
         parameters=[
             ActuatorParameterState(
-                **one.model_dump(),
-                value=getattr(mechanism.prototype, one.name),
-                nominal=getattr(mechanism.nominal, one.name),
-                source=sources[one.name],
-                assumed=sources[one.name].startswith(ASSUMED),
+                **parameter.model_dump(),
+                value=getattr(mechanism.prototype, parameter.name),
+                nominal=getattr(mechanism.nominal, parameter.name),
+                source=sources[parameter.name],
+                assumed=sources[parameter.name].startswith(ASSUMED),
             )
-            for one in list_parameters(mechanism.parameters)
-            if one.name != "mechanism"
+            for parameter in list_parameters(mechanism.parameters)
+            if parameter.name != "mechanism"
         ],
         limit_sources={name: sources[name] for name in Limits.model_fields},
         datasheet=f"/actuators/{mechanism.name}/datasheet",

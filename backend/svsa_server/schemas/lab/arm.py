@@ -82,8 +82,8 @@ class FromArm(Checked):
             "effects": self.effects,
             "seed": self.seed,
         }
-        given: dict[str, Any] = {"feedforward": self.feedforward, "tip": self.tip}
-        return build_arm_experiment(self.arm, given, both, each)
+        settings: dict[str, Any] = {"feedforward": self.feedforward, "tip": self.tip}
+        return build_arm_experiment(self.arm, settings, both, each)
 
 
 class ArmPatch(Checked):

@@ -73,8 +73,12 @@ def list_kinds() -> Kinds:
             for name, effects in PRESETS.items()
         ],
         loads=[_describe_kind(load, load.first) for load in LOADS],
-        position=[_describe_kind(one, one.first, one.hint) for one in POSITIONS],
-        stiffness=[_describe_kind(one, one.first, one.hint) for one in STIFFNESSES],
+        position=[
+            _describe_kind(reference, reference.first, reference.hint) for reference in POSITIONS
+        ],
+        stiffness=[
+            _describe_kind(reference, reference.first, reference.hint) for reference in STIFFNESSES
+        ],
         figures=[
             FigureState(
                 key=figure.key,

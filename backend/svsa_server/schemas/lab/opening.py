@@ -136,8 +136,8 @@ class FromRanking(Checked):
     )
 
 
-def _add_source(wanted: Any) -> Any:
-    return {"from": "figure", **wanted} if isinstance(wanted, dict) else wanted
+def _add_source(request: Any) -> Any:
+    return {"from": "figure", **request} if isinstance(request, dict) else request
 
 
 SessionRequest = TypeAliasType(

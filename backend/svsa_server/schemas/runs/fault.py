@@ -55,7 +55,7 @@ class SessionFault(RunFault):
 
 
 def list_faults() -> list[FaultKindState]:
-    """Every row of the table."""
+    """List every kind of fault with its description."""
     return [_build_kind(code, kind) for code, kind in FAULTS.items()]
 
 

@@ -68,7 +68,9 @@ class Band(BaseModel):
     @classmethod
     def build(cls, time_s: list[float], bounds: np.ndarray) -> Self:
         """Build the band; `bounds` are lower and upper, (times, 2)."""
-        low, high = ([_tell(value) for value in column] for column in bounds.T.tolist())
+        low, high = (
+            [_replace_nonfinite(value) for value in column] for column in bounds.T.tolist()
+        )
         return cls(time_s=time_s, low=low, high=high)
 
 
@@ -93,11 +95,12 @@ class RunVerdict(BaseModel):
 def build_channel_state(verdict: ChannelVerdict) -> ChannelJudged:
     """Build the answer for a channel's verdict."""
     numbers = ("value", "low", "high", "excess")
-    reported: dict[str, Any] = asdict(verdict) | {
-        name: _tell(getattr(verdict, name)) for name in numbers
+    fields: dict[str, Any] = asdict(verdict) | {
+        name: _replace_nonfinite(getattr(verdict, name)) for name in numbers
     }
-    return ChannelJudged(**reported)
+    return ChannelJudged(**fields)
 
 
-def _tell(value: float) -> float | None:
+def _replace_nonfinite(value: float) -> float | None:
+    """Return a value for JSON: None in place of infinity or NaN."""
     return value if math.isfinite(value) else None

@@ -194,11 +194,13 @@ def _describe_step(exercise: Exercise, step: Step, progress: ExerciseProgress) -
         case Experiment():
             state.duration_s, state.free = step.duration_s, list(step.free)
             state.arm = step.arm
-            state.criteria = [one.title for one in step.list_criteria(is_bench=False)]
+            state.criteria = [criterion.title for criterion in step.list_criteria(is_bench=False)]
             state.bench = _describe_bench(step)
-            state.max_points = sum(one.points for one in step.criteria)
+            state.max_points = sum(criterion.points for criterion in step.criteria)
         case Explain():
-            state.options = [OptionState(name=one.name, text=one.text) for one in step.options]
+            state.options = [
+                OptionState(name=option.name, text=option.text) for option in step.options
+            ]
             state.max_points = step.points
             state.is_final = state.is_final or known.answer is not None
         case SubmitStep():
@@ -217,7 +219,7 @@ def _describe_bench(step: Experiment) -> BenchStepState | None:
         if end_s < step.duration_s:
             manual_loads.append(ManualLoadState(time_s=end_s, is_on=False))
     return BenchStepState(
-        criteria=[one.title for one in step.list_criteria(is_bench=True)],
+        criteria=[criterion.title for criterion in step.list_criteria(is_bench=True)],
         manual_load=step.bench.by_hand,
-        manual_loads=sorted(manual_loads, key=lambda one: one.time_s),
+        manual_loads=sorted(manual_loads, key=lambda load: load.time_s),
     )

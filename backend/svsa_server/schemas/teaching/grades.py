@@ -48,22 +48,28 @@ class GradesState(BaseModel):
     students: list[StudentState]
 
 
-def describe_submission(one: GradedSubmission) -> GradedSubmissionState:
+def describe_submission(submission: GradedSubmission) -> GradedSubmissionState:
     """Describe a submission."""
-    return GradedSubmissionState(exercise=one.exercise, grade=one.grade, problem=one.problem)
+    return GradedSubmissionState(
+        exercise=submission.exercise, grade=submission.grade, problem=submission.problem
+    )
 
 
 def describe_students(submitted: list[GradedSubmission]) -> list[StudentState]:
     """Group submissions by student, each under the name of the last submission."""
     students: dict[str, StudentState] = {}
-    for one in submitted:
+    for submission in submitted:
         known = students.setdefault(
-            one.person, StudentState(person=one.person, name=one.student, submissions=[])
+            submission.person,
+            StudentState(person=submission.person, name=submission.student, submissions=[]),
         )
-        known.submissions.append(describe_submission(one))
+        known.submissions.append(describe_submission(submission))
     return list(students.values())
 
 
 def describe_exercises(exercises: list[Exercise]) -> list[GradedExercise]:
     """List the exercises in their order."""
-    return [GradedExercise(name=one.name, number=one.number, title=one.title) for one in exercises]
+    return [
+        GradedExercise(name=exercise.name, number=exercise.number, title=exercise.title)
+        for exercise in exercises
+    ]

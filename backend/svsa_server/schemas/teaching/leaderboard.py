@@ -38,7 +38,7 @@ class RankedEntry(Entry):
 def describe_entries(entries: Sequence[Entry]) -> list[RankedEntry]:
     """Describe the entries with their ranks."""
     ranks = rank_entries(entries)
-    return [RankedEntry(**dict(one), rank=at) for at, one in zip(ranks, entries, strict=True)]
+    return [RankedEntry(**dict(entry), rank=at) for at, entry in zip(ranks, entries, strict=True)]
 
 
 class LeaderboardState(BaseModel):
