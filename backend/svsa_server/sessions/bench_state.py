@@ -45,7 +45,7 @@ def build_bench_state(session: BenchSession) -> BenchState:
 
 def _build_motors(session: BenchSession) -> tuple[MotorState, MotorState]:
     fields = session.loop.memory.fields
-    one, two = (
+    motor1, motor2 = (
         MotorState(
             heat=float(fields["heat"][number]),
             lasting_torque_nm=compute_lasting_torque(motor),
@@ -54,7 +54,7 @@ def _build_motors(session: BenchSession) -> tuple[MotorState, MotorState]:
         )
         for number, motor in enumerate((session.bench.motor1, session.bench.motor2))
     )
-    return one, two
+    return motor1, motor2
 
 
 def _build_homing(next_step: Axis | None) -> HomingState:

@@ -18,7 +18,7 @@ FRESH_S = 3.0
 
 
 @dataclass(frozen=True, eq=False)
-class Reported:
+class SentPast:
     """The past that a stream has received: run, lanes and names."""
 
     run_number: int
@@ -27,15 +27,15 @@ class Reported:
     names: Mapping[int, str]
 
     @classmethod
-    def all_of(cls, hosted: HostedSession) -> "Reported":
-        """The past up to now."""
+    def all_of(cls, hosted: HostedSession) -> "SentPast":
+        """Return the past of a session up to now: run, lanes and names."""
         session = hosted.session
         timeline = session.journal.timeline
         names = timeline.name_segments(list_kept_segments(session))
         lane_ids = tuple(timeline.lane_ids)
         return cls(session.journal.run_number, session.run.tick, lane_ids, names)
 
-    def find_since(self, now: "Reported") -> int:
+    def find_since(self, now: "SentPast") -> int:
         """Return the tick from which the past has to be sent; 0, all of it, if it has changed."""
         if (self.run_number, self.lane_ids) != (now.run_number, now.lane_ids):
             return 0
@@ -50,38 +50,38 @@ class Broadcast(NamedTuple):
     """A message, and what its client has received with it."""
 
     text: str
-    reported: Reported
+    sent: SentPast
 
 
-def write_broadcast(hosted: HostedSession, reported: Reported) -> Broadcast:
+def write_broadcast(hosted: HostedSession, sent: SentPast) -> Broadcast:
     """Build the message after a change, once for all clients that need the same.
 
     Its continuous values are those at the time of the first client.
     """
     control, queue = build_control(hosted), build_queue(hosted.lease)
-    key = (reported, control.mine, queue and queue.place)
-    return hosted.broadcast.get(hosted.version, key, lambda: _write(hosted, reported, build_state))
+    key = (sent, control.mine, queue and queue.place)
+    return hosted.broadcast.get(hosted.version, key, lambda: _write(hosted, sent, build_state))
 
 
-def write_progress(hosted: HostedSession, reported: Reported, period: Hashable) -> Broadcast:
+def write_progress(hosted: HostedSession, sent: SentPast, period: Hashable) -> Broadcast:
     """Build the continuous values for an up-to-date stream, once in each period."""
     version = (hosted.version, period)
-    return hosted.progress.get(version, reported, lambda: _write(hosted, reported, build_progress))
+    return hosted.progress.get(version, sent, lambda: _write(hosted, sent, build_progress))
 
 
 def is_fresh(hosted: HostedSession) -> bool:
-    """Whether the window started so recently that its numbers still change quickly."""
+    """Return whether the window started less than `FRESH_S` ago: its metrics change quickly."""
     run, window = hosted.session.run, hosted.session.journal.timeline.window
     return (run.tick - window.first_tick) * run.period_s < FRESH_S
 
 
 def _write(
     hosted: HostedSession,
-    reported: Reported,
+    sent: SentPast,
     build: Callable[[HostedSession, int], SessionProgress],
 ) -> Broadcast:
     version = (hosted.version, hosted.session.run.tick)
-    now = hosted.reported.get(version, None, lambda: Reported.all_of(hosted))
-    since = reported.find_since(now)
+    now = hosted.past.get(version, None, lambda: SentPast.all_of(hosted))
+    since = sent.find_since(now)
     message = StateMessage(since_tick=since, state=build(hosted, since))
     return Broadcast(message.model_dump_json(), now)

@@ -47,16 +47,16 @@ LOAD_POINTS = 250
 async def compute_load_response(configuration: Configuration, sigma: float) -> ResponseState:
     """Compute the error after the 3 kg, and for a sine on the link."""
     load = await asyncio.to_thread(simulate_load, configuration, sigma)
-    found = await asyncio.to_thread(compute_disturbance_response, configuration, sigma)
+    response = await asyncio.to_thread(compute_disturbance_response, configuration, sigma)
     encoders = _name_encoders(configuration)
-    radius = found.radius
+    radius = response.radius
     if encoders == "rig":
         radius = await asyncio.to_thread(_compute_sensed_radius, configuration, sigma)
     return ResponseState(
         law=configuration.law,
         stiffness_nm_per_rad=sigma,
         load=_build_load(load),
-        disturbance=_build_frequency(found) if found.is_stable else None,
+        disturbance=_build_frequency(response) if response.is_stable else None,
         largest_pole=radius,
         encoders=encoders,
     )
@@ -66,8 +66,8 @@ async def compute_stability(
     work: HeavyWork, configuration: Configuration, sigma: float
 ) -> StabilityState:
     """Assess the linear loop about rest, where Theorem 1 holds."""
-    found, radius = await work.run(_assess, configuration, sigma)
-    return _build_stability(configuration, sigma, found, radius)
+    stability, radius = await work.run(_assess, configuration, sigma)
+    return _build_stability(configuration, sigma, stability, radius)
 
 
 async def measure_margins(
@@ -101,9 +101,9 @@ async def map_attraction(
         velocities_rad_per_s=starts.velocities.tolist(),
         outcomes=[
             StartOutcomeState(
-                row=cell.row, column=cell.column, outcome=one.outcome, after_s=one.after_s
+                row=cell.row, column=cell.column, outcome=result.outcome, after_s=result.after_s
             )
-            for cell, one in outcomes
+            for cell, result in outcomes
         ],
         next=end if end < request.starts**2 else None,
     )
@@ -128,26 +128,26 @@ def _name_encoders(configuration: Configuration) -> Literal["session", "rig"]:
     return "session" if configuration.effects.encoders is not None else "rig"
 
 
-def _build_load(found: LoadResponse) -> LoadResponseState:
-    stride = max(1, len(found.time) // LOAD_POINTS)
+def _build_load(response: LoadResponse) -> LoadResponseState:
+    stride = max(1, len(response.time) // LOAD_POINTS)
     return LoadResponseState(
-        time_s=found.time[::stride].tolist(),
-        position_error_rad=found.error[::stride].tolist(),
-        peak_error_rad=float(np.max(np.abs(found.error), initial=0.0)),
-        fault=found.fault or None,
+        time_s=response.time[::stride].tolist(),
+        position_error_rad=response.error[::stride].tolist(),
+        peak_error_rad=float(np.max(np.abs(response.error), initial=0.0)),
+        fault=response.fault or None,
     )
 
 
-def _build_frequency(found: FrequencyResponse) -> FrequencyResponseState:
+def _build_frequency(response: FrequencyResponse) -> FrequencyResponseState:
     return FrequencyResponseState(
-        frequency_hz=found.frequency.tolist(), magnitude_rad_per_nm=found.magnitude.tolist()
+        frequency_hz=response.frequency.tolist(), magnitude_rad_per_nm=response.magnitude.tolist()
     )
 
 
 def _build_stability(
-    configuration: Configuration, sigma: float, found: Stability, radius: float
+    configuration: Configuration, sigma: float, stability: Stability, radius: float
 ) -> StabilityState:
-    loop, gain = found.loop, found.gain
+    loop, gain = stability.loop, stability.gain
     return StabilityState(
         law=configuration.law,
         stiffness_nm_per_rad=sigma,
@@ -155,15 +155,15 @@ def _build_stability(
         slowest_rad_per_s=loop.slowest,
         least_damping=loop.least_damping,
         largest_pole=radius,
-        ranges=[StableRangeState(**one._asdict()) for one in found.ranges],
+        ranges=[StableRangeState(**stable_range._asdict()) for stable_range in stability.ranges],
         least_ratio=MIN_RATIO,
         greatest_ratio=MAX_RATIO,
         ramp_gain_rad_s_per_nm=_finite(gain.ramp),
         l1_gain_rad_s_per_nm=_finite(gain.l1),
-        formula_rad_s_per_nm=found.formula,
-        floor_rad_s_per_nm=found.floor,
+        formula_rad_s_per_nm=stability.formula,
+        floor_rad_s_per_nm=stability.floor,
         is_observed=get_law(configuration.law).estimate == "observer",
-        fastest_observer_rad_per_s=found.fastest_observer,
+        fastest_observer_rad_per_s=stability.fastest_observer,
         encoders=_name_encoders(configuration),
     )
 

@@ -40,7 +40,7 @@ class Excitation:
 
     @property
     def over(self) -> bool:
-        """Whether it has ended or was interrupted."""
+        """Whether the excitation has ended or was interrupted."""
         session = self._session
         return (
             session.journal.recorder is None

@@ -82,7 +82,7 @@ class HostedSession:
         self.excitation: Excitation | None = None
         self.before_exercise: BeforeExercise | None = None
         self.last_use = last_use
-        self.broadcast, self.progress, self.reported = (
+        self.broadcast, self.progress, self.past = (
             Versioned[Any](),
             Versioned[Any](),
             Versioned[Any](),
@@ -122,12 +122,12 @@ class HostedSession:
         self.last_use = max(self.last_use, time.monotonic())
 
     def is_idle(self, now: float, idle_s: float) -> bool:
-        """Whether it was unused for longer than idle_s."""
+        """Return whether the session was unused for longer than `idle_s`, s."""
         return not self.streams and now - self.last_use > idle_s
 
     @contextlib.contextmanager
     def streamed_to(self, client: str | None) -> Iterator[None]:
-        """A context while a stream of this client is open."""
+        """Count a stream of this client as open within the context."""
         self._count_stream(client, 1)
         try:
             yield
@@ -156,17 +156,17 @@ class HostedSession:
         return {client for client in self._streams if client is not None}
 
     def take_control(self, holder: Holder, take_over: bool) -> None:
-        """As `ControlLease.take`, now."""
+        """Give this holder the control lease now; see `ControlLease.take`."""
         with self._changing_lease():
             self.lease.take(holder, take_over, time.monotonic())
 
     def give_control_back(self, client: str | None) -> None:
-        """As `ControlLease.give_back`."""
+        """Return the control lease of a client; see `ControlLease.give_back`."""
         with self._changing_lease():
             self.lease.give_back(client, time.monotonic())
 
     def hand_control_over(self, client: str | None, to: str) -> None:
-        """As `ControlQueue.hand_over`.
+        """Pass the control lease to a user in the queue; see `ControlQueue.hand_over`.
 
         Raises:
             StateError: If there is no queue.
@@ -175,7 +175,7 @@ class HostedSession:
             self.find_queue().hand_over(client, to, time.monotonic())
 
     def lock_control(self, is_locked: bool) -> None:
-        """As `ControlQueue.lock`.
+        """Lock or unlock the control lease; see `ControlQueue.lock`.
 
         Raises:
             StateError: If there is no queue.
@@ -202,8 +202,8 @@ class HostedSession:
         if settled:
             self._changes += 1
             self._rest_after(holder)
-        for one in settled:
-            self._note_settled(self, one)
+        for ended in settled:
+            self._note_settled(self, ended)
 
     def release_lease_of(self, client: str) -> None:
         """Remove a client that has left the class from lease and queue."""

@@ -65,15 +65,15 @@ class Indexing:
         if isinstance(self._catalogue, NoCatalogue):
             return
         total = 0
-        begin = reported = before = time.monotonic()
+        begin = last_report = before = time.monotonic()
         for done, total in self._catalogue.index():
             self._indexed = Indexed(done, total)
             now = time.monotonic()
-            if now - reported > REPORT_S:
-                reported = now
+            if now - last_report > REPORT_S:
+                last_report = now
                 self._report(f"Indexing recorded runs: {done} of {total}.")
             if self._stop.wait(now - before):
                 return
             before = time.monotonic()
-        if reported > begin:
+        if last_report > begin:
             self._report(f"The list of runs is complete: {total} were indexed.")

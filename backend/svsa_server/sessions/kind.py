@@ -23,9 +23,9 @@ def check_svsa(session: Session) -> None:
         )
 
 
-def check_arm(session: Session, wanted: Configuration, name: str) -> None:
+def check_arm(session: Session, configuration: Configuration, name: str) -> None:
     """Raise `StateError` if the session is not of the arm of this name: links and actuators."""
-    if _describe_arm(session.run.configuration) != _describe_arm(wanted):
+    if _describe_arm(session.run.configuration) != _describe_arm(configuration):
         raise StateError(
             f"This experiment is of the arm {name!r}, and this session is not: open a session of"
             " this arm."
@@ -33,7 +33,7 @@ def check_arm(session: Session, wanted: Configuration, name: str) -> None:
 
 
 def _describe_arm(configuration: Configuration) -> tuple[object, ...]:
-    """What the 3D view of a session cannot change: lengths of the links, and mechanisms."""
+    """Return what the 3D view of a session cannot change: link lengths and mechanisms."""
     arm = configuration.arm
     if arm is None:
         return ()

@@ -75,7 +75,7 @@ class Laboratory:
             UnknownError: If there is none.
         """
         if name not in self.sessions:
-            open_to_all = [one for one, hosted in self.sessions.items() if not hosted.owner]
+            open_to_all = [key for key, hosted in self.sessions.items() if not hosted.owner]
             known = ", ".join(open_to_all[:10])
             raise UnknownError(
                 f"There is no session {name[:80]!r}; sessions here: {known}. A private session ends"
@@ -228,11 +228,11 @@ class EmulatorOperator(Operator):
 
     def hang(self, loads: tuple[Load, ...]) -> None:
         """Request that exactly these loads are on."""
-        self._thread.submit(self._tell, lambda control: control.set_loads(loads))
+        self._thread.submit(self._send_command, lambda control: control.set_loads(loads))
 
     def set_to_marks(self) -> None:
         """Set the mechanism to its zero marks, and wait until it is there."""
-        done = self._thread.submit(self._tell, EmulatorControl.home)
+        done = self._thread.submit(self._send_command, EmulatorControl.home)
         end = time.monotonic() + OPERATOR_TIMEOUT_S
         while not done.done():
             if time.monotonic() > end:
@@ -242,10 +242,10 @@ class EmulatorOperator(Operator):
                 )
             pause(OPERATOR_POLL_S)
 
-    def _tell(self, say: Callable[[EmulatorControl], object]) -> None:
+    def _send_command(self, command: Callable[[EmulatorControl], object]) -> None:
         try:
             with EmulatorControl(self._port, OPERATOR_TIMEOUT_S) as control:
-                say(control)
+                command(control)
         except EmulatorError as error:
             _log.warning("The emulator was not notified. %s", error)
 

@@ -37,12 +37,12 @@ LOAD_S = 1.0
 """Onset of the load in a session that shows a design, s."""
 
 
-async def open_session(app: FastAPI, wanted: SessionRequest, owner: str) -> HostedSession:
+async def open_session(app: FastAPI, source: SessionRequest, owner: str) -> HostedSession:
     """Open a session.
 
     Args:
         app: The application.
-        wanted: Source of the session.
+        source: Source of the session.
         owner: Id of the user; empty in a lab without a class.
 
     Raises:
@@ -52,47 +52,47 @@ async def open_session(app: FastAPI, wanted: SessionRequest, owner: str) -> Host
         UnknownError: If there is no such session, run or job.
     """
     laboratory: Laboratory = app.state.laboratory
-    match wanted:
+    match source:
         case FromRun():
-            record = await asyncio.to_thread(app.state.catalogue.open, wanted.id)
+            record = await asyncio.to_thread(app.state.catalogue.open, source.id)
             check_simulated(record)
             configuration, commands = read_origin(record)
-            return await laboratory.branch(configuration, commands, wanted.tick, wanted.id, owner)
+            return await laboratory.branch(configuration, commands, source.tick, source.id, owner)
         case FromRanking():
-            scenario = find_scenario(wanted.scenario)
-            shown = await asyncio.to_thread(build_shown_run, scenario, wanted.row)
+            scenario = find_scenario(source.scenario)
+            shown = await asyncio.to_thread(build_shown_run, scenario, source.row)
             await asyncio.wrap_future(start_rehearsal(shown.configuration))
             return laboratory.create(shown.configuration, owner, shown.alone)
         case FromActuator():
-            for law in {wanted.law, *(lane.law for lane in wanted.comparisons)}:
-                await compile_for(wanted.actuator, law)
-            configuration = await asyncio.to_thread(wanted.build_configuration)
+            for law in {source.law, *(lane.law for lane in source.comparisons)}:
+                await compile_for(source.actuator, law)
+            configuration = await asyncio.to_thread(source.build_configuration)
         case FromArm():
-            for law in {wanted.law, *(lane.law for lane in wanted.comparisons)}:
-                await compile_arm(wanted.list_actuators(), law)
-            configuration = await asyncio.to_thread(wanted.build_configuration)
+            for law in {source.law, *(lane.law for lane in source.comparisons)}:
+                await compile_arm(source.list_actuators(), law)
+            configuration = await asyncio.to_thread(source.build_configuration)
         case FromFigure():
-            configuration = wanted.build_configuration(app.state.design)
+            configuration = source.build_configuration(app.state.design)
         case FromScenario():
-            configuration = await asyncio.to_thread(wanted.build_configuration)
+            configuration = await asyncio.to_thread(source.build_configuration)
         case FromSession():
-            tried, _ = build_trial(laboratory.get(wanted.id).session, wanted)
+            tried, _ = build_trial(laboratory.get(source.id).session, source)
             mechanism = find_mechanism(tried.actuator)
             is_svsa = mechanism.name == SVSA
             load = PaperLoad(start_s=LOAD_S) if is_svsa else build_default_load(mechanism, LOAD_S)
             configuration = tried.changed(loads=(load,), comparisons=())
         case FromFalsification():
-            configuration = _build_found(app.state.jobs.get(wanted.id, "falsification"))
+            configuration = _build_falsified(app.state.jobs.get(source.id, "falsification"))
     await asyncio.wrap_future(start_rehearsal(configuration))
     return laboratory.create(configuration, owner)
 
 
-def _build_found(job: Job) -> Configuration:
-    found = None if job.is_under_way else read_found(job.folder)
-    if found is None:
+def _build_falsified(job: Job) -> Configuration:
+    result = None if job.is_under_way else read_found(job.folder)
+    if result is None:
         raise StateError(
             f"The falsification {job.id} is {job.status} and has no scenario: it writes one at its"
             " end."
         )
     law, baseline = list_baselines(job.task.adversary.law)
-    return found.scenario.build_configuration(law).changed(comparisons=(Lane(law=baseline),))
+    return result.scenario.build_configuration(law).changed(comparisons=(Lane(law=baseline),))

@@ -19,7 +19,7 @@ async def find_owner(scope: Scope, kind: Kind, name: str) -> Owner | None:
     Args:
         scope: The request that contains its id.
         kind: Kind of the object.
-        name: Its id.
+        name: Id of the object.
     """
     state = scope["app"].state
     if kind == "session":

@@ -111,7 +111,7 @@ def build_state(hosted: HostedSession, since_tick: int = 0) -> SessionState:
 
 
 def build_control(hosted: HostedSession) -> ControlState:
-    """The holder of the control lease, as the requesting client sees it."""
+    """Describe the holder of the control lease, as the requesting client sees it."""
     lease = hosted.lease
     return ControlState(
         holder=lease.holder.name if lease.holder else None,
@@ -121,11 +121,11 @@ def build_control(hosted: HostedSession) -> ControlState:
 
 
 def build_queue(lease: ControlLease) -> QueueState | None:
-    """The queue as the requesting client sees it; None if there is no queue."""
+    """Describe the queue as the requesting client sees it; None if there is no queue."""
     if not isinstance(lease, ControlQueue):
         return None
     return QueueState(
-        waiting=[WaitingState(id=one.client, name=one.name) for one in lease.waiting],
+        waiting=[WaitingState(id=user.client, name=user.name) for user in lease.waiting],
         place=lease.find_place(asking.get()),
         locked=lease.is_locked,
         idle_s=lease.idle_s,
@@ -163,7 +163,7 @@ def _summarize(session: Session, lane: int) -> dict[str, Metrics | None]:
         kind: None if lanes is None or (place := places[kind]) is None else lanes[place]
         for kind, lanes in kinds.items()
     }
-    return {kind: one and _drop_unknown(one.summarize()) for kind, one in running.items()}
+    return {kind: window and _drop_unknown(window.summarize()) for kind, window in running.items()}
 
 
 def _drop_unknown(metrics: Metrics | None) -> Metrics | None:

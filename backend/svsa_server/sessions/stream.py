@@ -25,7 +25,7 @@ from svsa_server.schemas.lab.stream import (
     StreamRequest,
     lay_out_batch,
 )
-from svsa_server.sessions.broadcast import Reported, is_fresh, write_broadcast, write_progress
+from svsa_server.sessions.broadcast import SentPast, is_fresh, write_broadcast, write_progress
 from svsa_server.sessions.cursor import SampleCursor
 from svsa_server.sessions.hosted import HostedSession, Round
 from svsa_server.sessions.state import build_state
@@ -113,7 +113,7 @@ async def _send(
         # Read before the greeting is sent, so that a change during that wait is sent next and not
         # lost.
         version, sent_in = hosted.version, _count_periods(hosted, time.monotonic())
-        reported = Reported.all_of(hosted)
+        sent = SentPast.all_of(hosted)
         await websocket.send_text(_greet(hosted, cursor, channels))
         slow, taken_at = False, time.monotonic()
         while not hosted.session.closed:
@@ -123,15 +123,15 @@ async def _send(
                 version, sent_in, broadcast = (
                     hosted.version,
                     period,
-                    write_broadcast(hosted, reported),
+                    write_broadcast(hosted, sent),
                 )
             elif period != sent_in:
-                sent_in, broadcast = period, write_progress(hosted, reported, period)
+                sent_in, broadcast = period, write_progress(hosted, sent, period)
             # Read before the first `await`, so that state and samples are of the same moment.
             waited_s, taken_at = now - taken_at, now
             batch = cursor.take_batch(slow, waited_s)
             if broadcast is not None:
-                reported = broadcast.reported
+                sent = broadcast.sent
                 await websocket.send_text(broadcast.text)
             while batch is not None:
                 await websocket.send_bytes(batch)

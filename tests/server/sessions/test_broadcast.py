@@ -13,7 +13,7 @@ from svsa.runs.session.simulated import SimulatedSession
 from svsa.simulation.plant.loads.paper import PaperLoad
 from svsa_server.leases.lease import Holder, asking
 from svsa_server.sessions import broadcast
-from svsa_server.sessions.broadcast import Broadcast, Reported
+from svsa_server.sessions.broadcast import Broadcast, SentPast
 from svsa_server.sessions.cursor import SampleCursor, StreamRequest
 from svsa_server.sessions.hosted import HostedSession
 from svsa_server.sessions.state import build_state
@@ -37,7 +37,7 @@ def test_change_is_serialized_once_for_clients_with_the_same_content(hosted, mon
     written = []
     build = broadcast.build_state
     monkeypatch.setattr(broadcast, "build_state", lambda *of: written.append(of) or build(*of))
-    reported = Reported.all_of(hosted)
+    reported = SentPast.all_of(hosted)
     messages = {broadcast.write_broadcast(hosted, reported) for _ in range(100)}
     assert len(messages) == len(written) == 1
     hosted.session.start()
@@ -49,16 +49,16 @@ def test_clients_of_different_age_receive_the_same_from_the_first_change_on(host
     came = []
     for _ in range(5):
         hosted.session.step(10)
-        came.append(Reported.all_of(hosted))
+        came.append(SentPast.all_of(hosted))
     hosted.session.set_speed(2.0)
     then = {broadcast.write_broadcast(hosted, reported) for reported in came}
     assert len({message.text for message in then}) == 5
-    assert len({message.reported for message in then}) == 1
+    assert len({message.sent for message in then}) == 1
 
 
 def test_only_the_holder_of_control_is_notified(hosted):
     hosted.take_control(Holder("ada", "Ada"), take_over=False)
-    reported = Reported.all_of(hosted)
+    reported = SentPast.all_of(hosted)
     for client, is_ada in (("ada", True), ("bob", False), ("ada", True), (None, False)):
         asking.set(client)
         control = read(broadcast.write_broadcast(hosted, reported))["state"]["control"]
@@ -69,7 +69,7 @@ def test_continuous_values_are_serialized_once_per_period(hosted, monkeypatch):
     written = []
     build = broadcast.build_progress
     monkeypatch.setattr(broadcast, "build_progress", lambda *of: written.append(of) or build(*of))
-    reported = Reported.all_of(hosted)
+    reported = SentPast.all_of(hosted)
     assert len({broadcast.write_progress(hosted, reported, period=7) for _ in range(100)}) == 1
     broadcast.write_progress(hosted, reported, period=8)
     assert len(written) == 2
@@ -91,12 +91,12 @@ def test_window_is_fresh_in_its_first_seconds(hosted):
 
 def test_message_size_does_not_grow_with_the_changes_of_a_minute(hosted):
     """A dragged slider notifies a hundred browsers of each of its steps."""
-    reported, sizes = Reported.all_of(hosted), []
+    reported, sizes = SentPast.all_of(hosted), []
     for step in range(200):
         hosted.session.step(20)
         hosted.session.change(slide(step))
         message = broadcast.write_broadcast(hosted, reported)
-        reported = message.reported
+        reported = message.sent
         sizes.append(len(message.text))
     assert len(build_state(hosted).model_dump_json()) > 10 * sizes[-1]
     assert max(sizes[5:]) < 1.2 * sizes[5]
@@ -136,20 +136,20 @@ def do_something(session: SimulatedSession, dice: random.Random) -> None:
 def test_merged_messages_give_the_state_of_the_session(hosted, seed):
     """Also for a reader that receives some changes late, together."""
     dice, session = random.Random(seed), hosted.session  # noqa: S311
-    reported, known = Reported.all_of(hosted), json.loads(build_state(hosted).model_dump_json())
+    reported, known = SentPast.all_of(hosted), json.loads(build_state(hosted).model_dump_json())
     for number in range(100):
         do_something(session, dice)
         session.journal.advance(dice.choice((0, 1, 5, 40)))
         if dice.random() < 0.3:
             continue
         message = broadcast.write_broadcast(hosted, reported)
-        reported, known = message.reported, join(known, read(message))
+        reported, known = message.sent, join(known, read(message))
         version = hosted.version
         session.journal.advance(dice.choice((0, 1, 40)))
         if hosted.version != version:
             continue
         message = broadcast.write_progress(hosted, reported, number)
-        reported, known = message.reported, join(known, read(message))
+        reported, known = message.sent, join(known, read(message))
         there = json.loads(build_state(hosted).model_dump_json())
         for sent_part in ("events", "ended_windows", "lanes"):
             assert known[sent_part][-50:] == there[sent_part][-50:], sent_part
