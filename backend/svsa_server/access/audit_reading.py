@@ -65,23 +65,23 @@ def read_audit(folder: Path, operations: list[Operation], asked: Question) -> di
     known: dict[tuple[str, str], Operation | None] = {}
     people: dict[str, str] = {}
     kinds: set[str] = set()
-    found, total, newest = [], 0, asked.until
+    lines, total, newest = [], 0, asked.until
     first = (asked.page - 1) * asked.page_size
     for line in read_backwards(folder):
         if asked.until and line["time"] > asked.until:
             continue
         newest = newest or line["time"]
-        reported = report(line, operations, known)
-        kinds.add(reported["kind"])
-        if reported["person"] is not None:
-            people.setdefault(reported["person"], reported["name"] or reported["person"])
-        if not _is_asked_for(reported, asked):
+        entry = report(line, operations, known)
+        kinds.add(entry["kind"])
+        if entry["person"] is not None:
+            people.setdefault(entry["person"], entry["name"] or entry["person"])
+        if not _is_asked_for(entry, asked):
             continue
         if first <= total < first + asked.page_size:
-            found.append(reported)
+            lines.append(entry)
         total += 1
     return {
-        "lines": found,
+        "lines": lines,
         "total": total,
         "until": newest,
         "people": [{"id": key, "name": name} for key, name in people.items()],
@@ -89,11 +89,11 @@ def read_audit(folder: Path, operations: list[Operation], asked: Question) -> di
     }
 
 
-def _is_asked_for(reported: dict[str, Any], asked: Question) -> bool:
+def _is_asked_for(entry: dict[str, Any], asked: Question) -> bool:
     return (
-        (not asked.person or reported["person"] == asked.person)
-        and (not asked.kind or reported["kind"] == asked.kind)
-        and (asked.refused is None or reported["refused"] is asked.refused)
+        (not asked.person or entry["person"] == asked.person)
+        and (not asked.kind or entry["kind"] == asked.kind)
+        and (asked.refused is None or entry["refused"] is asked.refused)
     )
 
 
@@ -133,7 +133,11 @@ def report(
 
 
 def _find_operation(method: str, path: str, operations: list[Operation]) -> Operation | None:
-    matching = (one for one in operations if one.method == method and re.match(one.pattern, path))
+    matching = (
+        operation
+        for operation in operations
+        if operation.method == method and re.match(operation.pattern, path)
+    )
     return next(matching, None)
 
 

@@ -43,7 +43,7 @@ class Authentication(Protocol):
     patience: "Patience"
 
     def describe_needed(self, headers: Headers) -> tuple[str, str]:
-        """The problem for an unauthenticated caller: its kind and its text."""
+        """Return the problem for an unauthenticated caller: its kind and its text."""
         ...
 
     def admit(self, headers: Headers) -> Person | None:
@@ -156,7 +156,7 @@ class ClassAuthentication:
         return person
 
     def is_removed(self, headers: Headers) -> bool:
-        """Whether the instructor has removed the person of this cookie or token."""
+        """Return whether the instructor has removed the person of this cookie or token."""
         _, membership = self._read(headers)
         return membership is not None and membership.is_ended
 
@@ -278,6 +278,6 @@ def _read_cookie(headers: Headers) -> str:
 
 
 def read_bearer(headers: Headers) -> str:
-    """The bearer token of a request, or an empty text."""
+    """Return the bearer token of a request; empty if it has none."""
     scheme, _, token = headers.get("authorization", "").partition(" ")
     return token.strip() if scheme.lower() == "bearer" else ""

@@ -71,29 +71,27 @@ class ClassKeys:
 
     @classmethod
     def open(cls, folder: Path) -> tuple["ClassKeys", ShownOnce | None]:
-        """The keys of the class in this folder, created if there are none and then shown once."""
+        """Open the keys of the class in this folder; new ones are created and shown once."""
         path = folder / FILE
-        reported = None
+        shown = None
         if not path.exists():
-            reported = ShownOnce(
-                _draw_code(_CODE_LENGTH), _TOKEN_PREFIX + secrets.token_urlsafe(32)
-            )
+            shown = ShownOnce(_draw_code(_CODE_LENGTH), _TOKEN_PREFIX + secrets.token_urlsafe(32))
             _write(
                 path,
                 {
-                    **_hash_with_salt(reported.code),
-                    "instructor_sha256": _digest(reported.instructor_token).hex(),
+                    **_hash_with_salt(shown.code),
+                    "instructor_sha256": _digest(shown.instructor_token).hex(),
                     "signing_key": secrets.token_hex(32),
                 },
             )
-        return cls(path), reported
+        return cls(path), shown
 
     def is_code(self, code: str) -> bool:
         """Whether this is the class code, however it is spaced; takes some 50 ms."""
         return hmac.compare_digest(_stretch(code, self._salt), self._code)
 
     def is_instructor(self, token: str) -> bool:
-        """Whether this is the instructor token."""
+        """Return whether this is the instructor token."""
         return hmac.compare_digest(_digest(token), self._token)
 
     def renew_code(self) -> str:

@@ -138,7 +138,7 @@ class AccessGuard:
             raise Refusal(413, "too_large", _TOO_LARGE)
 
     async def _admit(self, scope: Scope) -> Person | None:
-        """The caller; None for an anonymous one, where that is allowed."""
+        """Return the caller; None for an anonymous caller, where that is allowed."""
         method = scope.get("method", WEBSOCKET)
         permission, _, has_route = self._permissions.find(method, find_path(scope))
         headers = Headers(scope=scope)
@@ -188,7 +188,7 @@ def read_address(scope: Scope) -> str:
 
 
 def find_path(scope: Scope) -> str:
-    """The path below the prefix that a proxy serves the lab under."""
+    """Return the path of a request below the prefix under which a proxy serves the lab."""
     return scope["path"].removeprefix(scope.get("root_path", "")) or "/"
 
 

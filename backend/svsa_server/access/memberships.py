@@ -94,7 +94,7 @@ class Memberships:
         return membership
 
     def is_valid(self, person: Person, login: str) -> bool:
-        """Whether a cookie or token of this person and login is still valid."""
+        """Return whether a cookie or token of this person and login is still valid."""
         if person == INSTRUCTOR:
             return login not in self._ended_logins
         membership = self._members.get(person.id)
@@ -142,16 +142,21 @@ class Memberships:
         """Find the membership whose rejoin code has this hash."""
         with self._lock:
             known = [*self._members.values()]
-        return next((one for one in known if one.return_hash == return_hash), None)
+        return next(
+            (membership for membership in known if membership.return_hash == return_hash), None
+        )
 
     def list_all(self) -> list[Membership]:
         """List all memberships, sorted by name."""
         members = [*self._members.values()]
-        return sorted(members, key=lambda one: (one.person.name.casefold(), one.person.id))
+        return sorted(
+            members,
+            key=lambda membership: (membership.person.name.casefold(), membership.person.id),
+        )
 
     def list_ended(self) -> list[Person]:
         """List the removed people, sorted by name."""
-        return [one.person for one in self.list_all() if one.is_ended]
+        return [membership.person for membership in self.list_all() if membership.is_ended]
 
     def keep(self, membership: Membership) -> None:
         """Save a new or changed membership.

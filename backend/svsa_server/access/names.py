@@ -67,7 +67,7 @@ def clean_name(name: str) -> str:
 
 
 def is_reserved(name: str) -> bool:
-    """Whether a name stands for a role, the lab or an id."""
+    """Return whether a name stands for a role, the lab or an id."""
     plain = _strip_marks(unicodedata.normalize("NFKC", name))
     words = re.findall(r"\w+", plain)
     joined = "".join(words)
@@ -75,7 +75,7 @@ def is_reserved(name: str) -> bool:
         return True
     whole, inside = _list_reserved()
     candidates = {joined, joined.strip("0123456789_")}
-    return any(list_keys(one) & whole for one in candidates) or any(
+    return any(list_keys(candidate) & whole for candidate in candidates) or any(
         list_keys(word) & inside for word in words
     )
 
@@ -87,7 +87,7 @@ def list_keys(name: str) -> frozenset[str]:
     small one does not.
     """
     name = " ".join(unicodedata.normalize("NFKC", name).split())
-    return frozenset(_fold(one) for one in (name, name.casefold()))
+    return frozenset(_fold(spelling) for spelling in (name, name.casefold()))
 
 
 def _fold(name: str) -> str:
@@ -98,7 +98,7 @@ def _fold(name: str) -> str:
 
 def _strip_marks(name: str) -> str:
     decomposed = unicodedata.normalize("NFD", name)
-    return "".join(one for one in decomposed if not unicodedata.combining(one))
+    return "".join(character for character in decomposed if not unicodedata.combining(character))
 
 
 def _has_stack(name: str) -> bool:
@@ -112,7 +112,7 @@ def _has_stack(name: str) -> bool:
 
 @cache
 def _list_reserved() -> tuple[frozenset[str], frozenset[str]]:
-    """The keys of reserved names, and of words that are reserved within a name."""
+    """List the keys of reserved names, and of words that are reserved within a name."""
     whole, inside = (
         frozenset(
             key

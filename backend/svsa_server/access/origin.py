@@ -40,11 +40,11 @@ def read_host(scope: Scope) -> str:
         return ""
 
 
-def is_own_name(host: str, reported: frozenset[str]) -> bool:
-    """Return whether a lab that other machines can reach has this host name; `reported` are its
+def is_own_name(host: str, configured: frozenset[str]) -> bool:
+    """Return whether a lab that other machines can reach has this host name; `configured` are its
     configured names.
     """
-    if is_loopback(host) or host.lower() in reported | _find_own_names():
+    if is_loopback(host) or host.lower() in configured | _find_own_names():
         return True
     try:
         ipaddress.ip_address(host)
@@ -60,8 +60,8 @@ def find_outward_address() -> str | None:
             authentication.connect(_ELSEWHERE)
         except OSError:
             return None
-        found = authentication.getsockname()[0]
-    return None if is_loopback(found) else found
+        address = authentication.getsockname()[0]
+    return None if is_loopback(address) else address
 
 
 def _find_own_names() -> frozenset[str]:

@@ -33,7 +33,7 @@ class People:
 
     @contextlib.contextmanager
     def connected(self, person: Person) -> Iterator[asyncio.Event]:
-        """A context while a connection of this person is open; its event is set to close it."""
+        """Count a connection of this person as open; the event is set to close the connection."""
         dismissed = asyncio.Event()
         self._connected[person.id].add(dismissed)
         try:

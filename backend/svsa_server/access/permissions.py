@@ -119,7 +119,7 @@ class PermissionTable:
 
     def write(self) -> str:
         """Return the complete table as text, one line for each method and path, by path."""
-        lines = sorted((path, method, found.word) for method, path, found in self.entries)
+        lines = sorted((path, method, permission.word) for method, path, permission in self.entries)
         return "".join(f"{word:<11}{method:<10}{path}\n" for path, method, word in lines)
 
 
