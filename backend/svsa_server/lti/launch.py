@@ -78,20 +78,20 @@ def read_launch(platform: Platform, keys: KeySet, token: str, nonce: str) -> Lau
 
 
 def _check(claims: dict[str, Any], name: str, allowed: tuple[str, ...]) -> None:
-    given = claims.get(name)
-    if given not in allowed:
+    value = claims.get(name)
+    if value not in allowed:
         word = name.rpartition("/")[2]
-        raise LaunchError(f"{word} is {given!r:.100}: it must be {' or '.join(allowed)}.")
+        raise LaunchError(f"{word} is {value!r:.100}: it must be {' or '.join(allowed)}.")
 
 
 def _read_table(claims: dict[str, Any], name: str) -> dict[str, Any]:
-    found = claims.get(name)
-    return found if isinstance(found, dict) else {}
+    table = claims.get(name)
+    return table if isinstance(table, dict) else {}
 
 
 def _read_name(claims: dict[str, Any]) -> str:
-    given = claims.get("name") or claims.get("given_name") or ""
-    printable = "".join(one for one in str(given) if one.isprintable()).strip()
+    name = claims.get("name") or claims.get("given_name") or ""
+    printable = "".join(character for character in str(name) if character.isprintable()).strip()
     return printable[:_LONGEST_NAME] or "Student"
 
 

@@ -63,10 +63,10 @@ class LtiSettings(Checked):
 
     def find(self, issuer: str, client_id: str | None) -> Platform | None:
         """Find the platform of an issuer; `client_id` is needed if the issuer has several."""
-        found = [one for one in self.platforms if one.issuer == issuer]
+        matches = [platform for platform in self.platforms if platform.issuer == issuer]
         if client_id is not None:
-            found = [one for one in found if one.client_id == client_id]
-        return found[0] if len(found) == 1 else None
+            matches = [platform for platform in matches if platform.client_id == client_id]
+        return matches[0] if len(matches) == 1 else None
 
 
 def read_lti_file(path: Path) -> LtiSettings:
@@ -77,13 +77,13 @@ def read_lti_file(path: Path) -> LtiSettings:
     """
     values = read_toml(path, LTI_FILE)
     try:
-        found = LtiSettings(**values)
-        keys = [(one.issuer, one.client_id) for one in found.platforms]
+        settings = LtiSettings(**values)
+        keys = [(platform.issuer, platform.client_id) for platform in settings.platforms]
         if len(set(keys)) < len(keys):
             raise ParameterError(Violation("platforms", keys, "", "each issuer and client_id once"))
     except ParameterError as error:
         raise ParameterError(*error.violations, file=str(path)) from None
-    return found.changed(key_file=path.parent / found.key_file)
+    return settings.changed(key_file=path.parent / settings.key_file)
 
 
 LONGEST_S = 600.0

@@ -66,7 +66,7 @@ class ScoreSender:
             await asyncio.to_thread(self._note, link, grade, problem)
 
     def _list_due(self) -> list[tuple[Link, Grade]]:
-        links, found = self._tool.links.list(), list[tuple[Link, Grade]]()
+        links, due = self._tool.links.list(), list[tuple[Link, Grade]]()
         if not links:
             return []
         book = open_book(self._store)
@@ -78,11 +78,11 @@ class ScoreSender:
                 digest = read_submission(path).digest if path.exists() else ""
                 grade = book.find(digest) if digest not in ("", link.sent) else None
             except ParameterError as error:
-                self._tell(link, None, str(error))
+                self._audit_score(link, None, str(error))
                 continue
             if grade is not None:
-                found.append((link, grade))
-        return found
+                due.append((link, grade))
+        return due
 
     async def _try(self, link: Link, grade: Grade) -> str:
         """Send a score; return why it did not arrive, or an empty text."""
@@ -123,9 +123,9 @@ class ScoreSender:
                 "scope": SCORE_SCOPE,
             },
         )
-        reported = answer.raise_for_status().json()
-        token = str(reported["access_token"])
-        self._tokens[platform] = now + float(reported.get("expires_in", 0)) - _ASSERTION_S, token
+        granted = answer.raise_for_status().json()
+        token = str(granted["access_token"])
+        self._tokens[platform] = now + float(granted.get("expires_in", 0)) - _ASSERTION_S, token
         return token
 
     def _note(self, link: Link, grade: Grade, problem: str) -> None:
@@ -138,9 +138,9 @@ class ScoreSender:
             wait_s = min(FIRST_WAIT_S * 2**link.tries, LONGEST_WAIT_S)
             link = link._replace(tries=link.tries + 1, due=self._clock() + wait_s)
         self._tool.links.keep(link)
-        self._tell(link, grade, problem)
+        self._audit_score(link, grade, problem)
 
-    def _tell(self, link: Link, grade: Grade | None, problem: str) -> None:
+    def _audit_score(self, link: Link, grade: Grade | None, problem: str) -> None:
         self._audit.write(
             action="lti score",
             person=link.person,

@@ -48,7 +48,7 @@ class LtiTool:
         return cls(read_lti_file(path), data)
 
     def list_keys(self) -> dict[str, Any]:
-        """The public keys of the lab, as a JWKS."""
+        """Return the public keys of the lab, as a JSON Web Key Set."""
         return dict(KeySet([self.key]).as_dict(private=False))
 
     def find_platform(self, asked: Mapping[str, str]) -> Platform:
@@ -73,25 +73,25 @@ class LtiTool:
         """
         platform = self.find_platform(asked)
         state, nonce = self._logins.begin(platform)
-        wanted = {
+        query = {
             "scope": "openid", "response_type": "id_token", "response_mode": "form_post",
             "prompt": "none", "client_id": platform.client_id, "redirect_uri": redirect,
             "login_hint": asked["login_hint"], "state": state, "nonce": nonce,
         }  # fmt: skip
         if hint := asked.get("lti_message_hint"):
-            wanted["lti_message_hint"] = hint
+            query["lti_message_hint"] = hint
         mark = "&" if urlsplit(platform.login_url).query else "?"
-        return f"{platform.login_url}{mark}{urlencode(wanted)}", state
+        return f"{platform.login_url}{mark}{urlencode(query)}", state
 
-    async def take(self, given: Mapping[str, str], cookie: str) -> tuple[Platform, Launch]:
+    async def take(self, form: Mapping[str, str], cookie: str) -> tuple[Platform, Launch]:
         """Verify a launch; `cookie` is the state with which this browser started the login.
 
         Raises:
             LaunchError: If the launch is invalid.
         """
-        state, token = given.get("state", ""), given.get("id_token", "")
-        if error := given.get("error"):
-            raise LaunchError(f"The platform reports: {error} {given.get('error_description', '')}")
+        state, token = form.get("state", ""), form.get("id_token", "")
+        if error := form.get("error"):
+            raise LaunchError(f"The platform reports: {error} {form.get('error_description', '')}")
         if not hmac.compare_digest(state.encode(), cookie.encode()):
             raise LaunchError(
                 "It was not started in this browser, or the cookies are blocked: launch it"
@@ -116,8 +116,8 @@ class LtiTool:
         Raises:
             LaunchError: If the user was removed from the class.
         """
-        reported = "\n".join((platform.issuer, platform.client_id, launch.user))
-        id_ = f"p-{hashlib.sha256(reported.encode()).hexdigest()[:24]}"
+        identity = "\n".join((platform.issuer, platform.client_id, launch.user))
+        id_ = f"p-{hashlib.sha256(identity.encode()).hexdigest()[:24]}"
         known, role = authentication.members.find(id_), _ROLES[launch.role]
         if known is not None and known.is_ended:
             raise LaunchError(REMOVED)
