@@ -44,12 +44,12 @@ def _has_estimate(law: str) -> bool:
 
 
 def name_lanes(segments: Sequence[Sequence[SegmentState]]) -> list[str]:
-    """The name of each lane over the run: NDOBC → FL if its controller changed."""
-    return [" → ".join(dict.fromkeys(one.name for one in lane)) for lane in segments]
+    """Name each lane over the run: NDOBC → FL if its controller changed."""
+    return [" → ".join(dict.fromkeys(segment.name for segment in lane)) for lane in segments]
 
 
 def build_window(window: Window, period_s: float) -> WindowState:
-    """A window with its times."""
+    """Build the description of a measured window, with its ticks and times."""
     return WindowState(**_describe_window(window, period_s))
 
 
@@ -71,7 +71,7 @@ def list_ended_windows(session: Session, since_tick: int = 0) -> list[EndedWindo
     Only those that ended at `since_tick` or later.
     """
     journal, period_s = session.journal, session.run.period_s
-    ended = {one.first_tick: one.lanes for one in journal.metrics.ended}
+    ended = {window.first_tick: window.lanes for window in journal.metrics.ended}
     first_tick = max(0, session.run.tick - round(KEPT_S / period_s))
     windows = journal.timeline.list_windows(first_tick, session.run.tick + 1)
     return [
@@ -90,17 +90,17 @@ def _build(
     return [
         [
             SegmentState(
-                number=one.number,
-                name=names[one.number],
-                line_style=one.line_style,
-                has_estimate=_has_estimate(one.controller.law),
-                start_tick=one.first_tick,
-                start_s=one.first_tick * period_s,
-                end_tick=one.end_tick,
-                end_s=None if one.end_tick is None else one.end_tick * period_s,
+                number=segment.number,
+                name=names[segment.number],
+                line_style=segment.line_style,
+                has_estimate=_has_estimate(segment.controller.law),
+                start_tick=segment.first_tick,
+                start_s=segment.first_tick * period_s,
+                end_tick=segment.end_tick,
+                end_s=None if segment.end_tick is None else segment.end_tick * period_s,
             )
-            for one in lane
-            if one.end_tick is None or one.end_tick >= since_tick
+            for segment in lane
+            if segment.end_tick is None or segment.end_tick >= since_tick
         ]
         for lane in lanes
     ]

@@ -42,7 +42,7 @@ def choose_opening(configuration: Configuration, design: Design) -> Opening:
         Opening(request, defaults, _find_problem(configuration, defaults))
         for request, defaults in _list_requests(configuration, design)
     ]
-    return next((one for one in openings if one.problem is None), openings[0])
+    return next((opening for opening in openings if opening.problem is None), openings[0])
 
 
 def _list_requests(
@@ -75,12 +75,12 @@ def _find_problem(c: Configuration, defaults: Configuration) -> str | None:
             "control period": (joint.sampling, default.sampling),
             "seed": (joint.seed, c.seed),
             "stiffness of the nominal spring": tuple(
-                find_only_stiffness(one.nominal) for one in (joint, default)
+                find_only_stiffness(configured.nominal) for configured in (joint, default)
             ),
             "law parameters": (default.parameters.keys() - joint.parameters.keys(), set()),
         }
-        for name, (own, given) in fixed.items():
-            if own != given:
+        for name, (own, expected) in fixed.items():
+            if own != expected:
                 return (
                     f"No request sets the {name}{of_joint} as in this run, so no script can"
                     " repeat it."

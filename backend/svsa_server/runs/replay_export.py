@@ -53,7 +53,7 @@ def build_replay(record: Record) -> str:
         actuator=origin[0].actuator,
         arm=_find_arm(*origin, record.first_tick),
         window=find_measured_window(record),
-        segments=[[_place(record, one) for one in lane] for lane in segments],
+        segments=[[_place(record, segment) for segment in lane] for lane in segments],
     )
 
 
@@ -78,14 +78,14 @@ def _place(record: Record, segment: SegmentState) -> LaneSegment:
 
 
 def compute_hung_mass(record: Record) -> np.ndarray:
-    """The mass on the link at every tick of the record, kg, (ticks,)."""
+    """Compute the mass on the link at every tick of the record, kg, (ticks,)."""
     return trace_hung_mass(*read_origin(record), record.first_tick, record.tick_count)
 
 
 def trace_hung_mass(
     configuration: Configuration, commands: Sequence[Command], first_tick: int, tick_count: int
 ) -> np.ndarray:
-    """The mass on the link at `tick_count` ticks of a run, kg, (tick_count,)."""
+    """Trace the mass on the link at `tick_count` ticks of a run, kg, (tick_count,)."""
     ticks = np.arange(first_tick, first_tick + tick_count)
     mass = np.zeros(tick_count)
     for _, load, start, end, _ in list_loads(configuration, commands):

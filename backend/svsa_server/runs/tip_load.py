@@ -18,7 +18,7 @@ def sum_tip_loads(loads: Iterable[Load]) -> TipLoad:
     """Sum the loads that act at one instant; of several walls, the first."""
     acting = list(loads)
     forces = [_compute_force(load) for load in acting]
-    walls = [one for one in acting if isinstance(one, WallLoad)]
+    walls = [load for load in acting if isinstance(load, WallLoad)]
     return TipLoad(
         mass_kg=sum(load.get_hung_mass() for load in acting),
         force_n=(sum(x for x, _ in forces), sum(y for _, y in forces)),
@@ -32,24 +32,24 @@ def trace_tip_loads(
     """Trace the sum through a run.
 
     Args:
-        configuration: Of the run at its tick 0.
-        commands: Of the run.
+        configuration: Configuration of the run at tick 0.
+        commands: Commands of the run.
         first_tick: Tick of the run that the result counts as 0.
 
     Returns:
         Each sum with the tick from which it acts, in the order of the ticks.
     """
     changes = list_load_changes(configuration, commands)
-    found = [(0, TipLoad())]
+    sums = [(0, TipLoad())]
     ends = [*(tick for tick, _ in changes[1:]), math.inf]
     for (tick, loads), following in zip(changes, ends, strict=False):
-        times = {time for one in loads for time in (one.start_tick, one.end_tick)}
+        times = {time for held in loads for time in (held.start_tick, held.end_tick)}
         between = (int(time) for time in times if tick < time < following)
         for at in sorted({tick, *between}):
-            load = sum_tip_loads(one.load for one in loads if one.is_on(at))
-            if load != found[-1][1]:
-                found.append((max(0, at - first_tick), load))
-    return found
+            load = sum_tip_loads(held.load for held in loads if held.is_on(at))
+            if load != sums[-1][1]:
+                sums.append((max(0, at - first_tick), load))
+    return sums
 
 
 def _compute_force(load: Load) -> tuple[float, float]:

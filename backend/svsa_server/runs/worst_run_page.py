@@ -19,7 +19,9 @@ def build_worst_run_page(board: Board, entry: Entry) -> str:
     """
     scenario, lanes, result, alone = replay_worst(board, entry)
     notes = ("Its worst run on the leaderboard.", entry.standing.worst.problem, alone)
-    samples = np.stack([result.samples, *(one.samples for one in result.comparisons)], axis=1)
+    samples = np.stack(
+        [result.samples, *(comparison.samples for comparison in result.comparisons)], axis=1
+    )
     period_s = result.configuration.sampling.period_s
     ticks = len(samples)
     first = round(scenario.measured_s / period_s)
