@@ -39,7 +39,7 @@ def search(folder: JobFolder, task: Task) -> bool:
     def keep_worst(scenario: LoadScenario) -> None:
         replace_file(folder.path / _WORST, format_scenario(scenario).encode())
 
-    found = falsify(
+    result = falsify(
         task.adversary,
         runs=task.runs,
         seed=task.seed,
@@ -47,16 +47,16 @@ def search(folder: JobFolder, task: Task) -> bool:
         on_worse=keep_worst,
         is_cancelled=folder.is_cancelled,
     )
-    folder.report(len(found.severities), task.runs)
-    keep_worst(found.as_found)
-    steps = [] if found.shrunk is None else [*found.shrunk.steps]
+    folder.report(len(result.severities), task.runs)
+    keep_worst(result.as_found)
+    steps = [] if result.shrunk is None else [*result.shrunk.steps]
     (folder.path / _STEPS).write_text(json.dumps(steps), encoding="utf-8")
-    compared = run_scenario(found.scenario, list_baselines(task.adversary.law))
-    outcomes = make_plain([one._asdict() for one in compared])
+    compared = run_scenario(result.scenario, list_baselines(task.adversary.law))
+    outcomes = make_plain([outcome._asdict() for outcome in compared])
     (folder.path / _OUTCOMES).write_text(json.dumps(outcomes), encoding="utf-8")
     # Complete from its first moment on: the server reads the result as soon as this file exists.
-    replace_file(folder.path / _SCENARIO, format_scenario(found.scenario).encode())
-    return found.is_complete
+    replace_file(folder.path / _SCENARIO, format_scenario(result.scenario).encode())
+    return result.is_complete
 
 
 def read_worst(folder: Path) -> LoadScenario | None:
@@ -102,12 +102,12 @@ def run_laws(scenario: LoadScenario, laws: tuple[str, ...]) -> dict[str, Any]:
     ticks = len(trace.time_s)
     curves = np.full((ticks, _TORQUES + _ERRORS * len(laws)), np.nan)
     curves[:, :_TORQUES] = trace.torque_nm
-    for number, one in enumerate(trace.laws):
+    for number, law_trace in enumerate(trace.laws):
         at = _TORQUES + _ERRORS * number
-        curves[: len(one.errors), at : at + _ERRORS] = one.errors[:ticks]
+        curves[: len(law_trace.errors), at : at + _ERRORS] = law_trace.errors[:ticks]
     thinned = decimate(curves.round(DIGITS), POINTS)
     columns = thinned.values.T.tolist()
-    reported = [
+    results = [
         {
             **outcome._asdict(),
             "position_error_rad": columns[_TORQUES + _ERRORS * number],
@@ -121,6 +121,6 @@ def run_laws(scenario: LoadScenario, laws: tuple[str, ...]) -> dict[str, Any]:
             "neighborhood": scenario.found and scenario.found.neighborhood,
             "time_s": trace.time_s[thinned.rows].tolist(),
             "torque_nm": thinned.values[:, :_TORQUES].tolist(),
-            "laws": reported,
+            "laws": results,
         }
     )

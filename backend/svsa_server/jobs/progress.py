@@ -60,12 +60,12 @@ class JobFolder:
         replace_file(self.path / PROGRESS, json.dumps(self._progress).encode())
 
     def is_cancelled(self) -> bool:
-        """Whether the worker has been requested to stop and keep its results."""
+        """Return whether the worker was requested to stop and keep its results."""
         return (self.path / STOP).exists()
 
 
 def read_progress(folder: Path) -> Progress:
-    """The last report of the worker in this folder."""
+    """Read the last progress report of the worker in this folder."""
     try:
         done, total, rate_per_s = load_json((folder / PROGRESS).read_bytes())
         return Progress(int(done), int(total), rate_per_s and float(rate_per_s))

@@ -142,7 +142,7 @@ class Job:
 
     @property
     def is_under_way(self) -> bool:
-        """Whether it runs or waits."""
+        """Return whether the job runs or waits."""
         return self.status in ("waiting", "running")
 
     @property

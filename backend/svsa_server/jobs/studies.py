@@ -52,6 +52,6 @@ def replay(stored: StoredStudy, row: int, owner: str) -> dict[str, Any]:
     """Run a row again and record it; return the run's id, and whether its metrics match the
     table.
     """
-    found = replay_row(stored, row)
-    run_id = record_replay(stored, found, Catalogue(), owner).id
-    return {"run_id": run_id, "row": row, "differing": found.differing}
+    replayed = replay_row(stored, row)
+    run_id = record_replay(stored, replayed, Catalogue(), owner).id
+    return {"run_id": run_id, "row": row, "differing": replayed.differing}

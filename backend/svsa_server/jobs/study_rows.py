@@ -46,10 +46,10 @@ def read_row(stored: StoredStudy, row: int) -> dict[str, Any]:
     """
     check_number("row", row, "", 0, stored.study.row_count - 1)
     table = read_columns(stored, build_schema(stored.study).names)
-    found = table.filter(pa.array(table[ROW].to_numpy() == row)).to_pylist()
-    if not found:
+    rows = table.filter(pa.array(table[ROW].to_numpy() == row)).to_pylist()
+    if not rows:
         raise StudyError(f"Row {row} of study {stored.name} is not done yet.")
-    return make_plain(found[0])
+    return make_plain(rows[0])
 
 
 def thin_out(rows: pa.Table, laws: int, most: int) -> pa.Table:
@@ -58,11 +58,11 @@ def thin_out(rows: pa.Table, laws: int, most: int) -> pa.Table:
     """
     numbers = rows[DRAW].to_numpy()
     samples = np.unique(numbers)
-    wanted = max(1, most // laws)
-    if len(samples) <= wanted:
+    count = max(1, most // laws)
+    if len(samples) <= count:
         return rows
     lot = np.random.Generator(np.random.Philox(len(samples)))
-    kept = lot.choice(samples, wanted, replace=False)
+    kept = lot.choice(samples, count, replace=False)
     return rows.filter(pa.array(np.isin(numbers, kept)))
 
 
@@ -76,12 +76,12 @@ def pack_rows(stored: StoredStudy, columns: Sequence[str], most: int) -> bytes:
     names = [ROW, *(name for name in columns if name != ROW)]
     whole = read_columns(stored, [*dict.fromkeys([*names, DRAW])])
     rows = thin_out(whole, len(stored.study.laws), most)
-    packed, reported = [], []
+    packed, descriptions = [], []
     for name in names:
         values, labels = _pack_column(rows[name].combine_chunks())
         packed.append(values.astype("<f8").tobytes())
-        reported.append({"name": name} | ({} if labels is None else {"labels": labels}))
-    header = {"rows": rows.num_rows, "total": whole.num_rows, "columns": reported}
+        descriptions.append({"name": name} | ({} if labels is None else {"labels": labels}))
+    header = {"rows": rows.num_rows, "total": whole.num_rows, "columns": descriptions}
     text = json.dumps(header).encode()
     text += b" " * (-(len(text) + 4) % 8)
     return b"".join([struct.pack("<I", len(text)), text, *packed])
