@@ -86,7 +86,7 @@ class ControlLease:
         self._heard = 0.0
 
     def is_held_by(self, client: str | None) -> bool:
-        """Whether this client is in control."""
+        """Return whether this client is in control."""
         return self.holder is not None and self.holder.client == client
 
     def admits(self, client: str | None) -> bool:

@@ -69,7 +69,7 @@ class Outcomes:
 
     @property
     def known_for_s(self) -> float:
-        """For this time every request with a key is stored, s: no newer one has been removed."""
+        """Age up to which every request with a key is stored, s: no newer one was removed."""
         return self._now() - self._complete_since
 
     def begin(self, person_id: str, key: str, fingerprint: str) -> NamedRequest:
@@ -134,14 +134,14 @@ class OutcomeKeeper:
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Pass the request on, or repeat the answer of the first request with its key."""
-        given = Headers(scope=scope).get(KEY_HEADER) if scope["type"] == "http" else None
-        if given is None or scope["method"] not in CHANGING or not self._has_route(scope):
+        header = Headers(scope=scope).get(KEY_HEADER) if scope["type"] == "http" else None
+        if header is None or scope["method"] not in CHANGING or not self._has_route(scope):
             await self._app(scope, receive, send)
             return
         # A structured field has quotation marks; many clients omit them.
-        key = given.strip('"')
+        key = header.strip('"')
         if not re.fullmatch(KEY_PATTERN, key):
-            detail = f"{KEY_HEADER} is {given[:80]!r}: 1 to 64 letters, digits and . _ : - only."
+            detail = f"{KEY_HEADER} is {header[:80]!r}: 1 to 64 letters, digits and . _ : - only."
             await answer_problem(400, "key_invalid", detail)(scope, receive, send)
             return
         body = _Body(receive)
@@ -238,7 +238,7 @@ async def _repeat(
 
 
 def _compute_fingerprint(scope: Scope, body: bytes) -> str:
-    """The same for two requests only if method, address, client and body are."""
+    """Compute a digest of method, address, client and body, equal only for equal requests."""
     digest = hashlib.sha256()
     client = Headers(scope=scope).get(CLIENT_HEADER, "")
     query = scope.get("query_string", b"")

@@ -82,7 +82,7 @@ class ControlQueue(ControlLease):
         """
         if not self.is_held_by(client) and not (client and self._is_instructor(client)):
             self.check(client)
-        chosen = next((one for one in self.waiting if one.client == to), None)
+        chosen = next((user for user in self.waiting if user.client == to), None)
         if chosen is None:
             raise StateError(
                 "Control can be passed only to a user in the queue; this one is not in it."
@@ -100,7 +100,7 @@ class ControlQueue(ControlLease):
 
     def find_place(self, client: str | None) -> int | None:
         """Return the place in the queue, 1 is next; None if the user is not in it."""
-        places = (place for place, one in enumerate(self.waiting, 1) if one.client == client)
+        places = (place for place, user in enumerate(self.waiting, 1) if user.client == client)
         return next(places, None)
 
     def hear(self, client: str | None, now: float) -> None:
@@ -116,10 +116,12 @@ class ControlQueue(ControlLease):
 
     def settle(self, now: float, patience_s: float) -> list[EndedLease]:
         """End the lease of a holder who is gone, or idle while others wait; return the holder."""
-        gone = [one for one in self.waiting if now - self._waiting_heard[one.client] > patience_s]
-        for one in gone:
-            self._leave_queue(one.client)
-        settled = [EndedLease(one, "gone_from_queue") for one in gone]
+        gone = [
+            user for user in self.waiting if now - self._waiting_heard[user.client] > patience_s
+        ]
+        for user in gone:
+            self._leave_queue(user.client)
+        settled = [EndedLease(user, "gone_from_queue") for user in gone]
         settled += super().settle(now, patience_s)
         is_idle = now - self._acted > self.idle_s
         if self.holder is not None and is_idle and self.waiting and not self.is_locked:
@@ -136,7 +138,7 @@ class ControlQueue(ControlLease):
             self.holder = None
 
     def _leave_queue(self, client: str | None) -> None:
-        self.waiting = [one for one in self.waiting if one.client != client]
+        self.waiting = [user for user in self.waiting if user.client != client]
         if client is not None:
             self._waiting_heard.pop(client, None)
 
