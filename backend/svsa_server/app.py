@@ -108,7 +108,7 @@ def build_app(
     app.state.report = report
     app.state.shared = shared
     app.state.design = read_design(config.parameters) if config.parameters else load_prototype()
-    app.state.course = {one.name: one for one in read_course(config.course)}
+    app.state.course = {exercise.name: exercise for exercise in read_course(config.course)}
     app.state.course_progress = ProgressStore(find_data_folder())
     app.state.lti = open_lti(config)
     app.state.outcomes = Outcomes()

@@ -127,9 +127,9 @@ def _refuse_request(error: RequestValidationError) -> JSONResponse:
     for problem in error.errors():
         where, *rest = problem["loc"]
         if problem["type"] == "json_invalid":
-            found = json.JSONDecodeError(problem["ctx"]["error"], str(error.body), rest[0])
-            place = f"line {found.lineno}, column {found.colno}"
-            detail = f"The body is not JSON: {found.msg} at {place}."
+            syntax_error = json.JSONDecodeError(problem["ctx"]["error"], str(error.body), rest[0])
+            place = f"line {syntax_error.lineno}, column {syntax_error.colno}"
+            detail = f"The body is not JSON: {syntax_error.msg} at {place}."
             return answer_problem(400, "malformed_json", detail)
         (body if where == "body" else others).append(problem | {"loc": rest})
     violations = [

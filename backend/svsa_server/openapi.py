@@ -147,14 +147,14 @@ def _link(operation: dict[str, Any]) -> None:
         answer = operation["responses"].get(status, {})
         body = answer.get("content", {}).get("application/json", {}).get("schema", {})
         created = body.get("$ref", "").rpartition("/")[2] if status == "201" else ""
-        found = _LINKS.get(created, {}) | _MORE_LINKS.get(operation["operationId"], {})
-        if found and status in operation["responses"]:
+        links = _LINKS.get(created, {}) | _MORE_LINKS.get(operation["operationId"], {})
+        if links and status in operation["responses"]:
             answer["links"] = {
                 target: {
                     "operationId": target,
                     "parameters": {name: f"$response.body#{place}"},
                 }
-                for target, (name, place) in found.items()
+                for target, (name, place) in links.items()
             }
 
 

@@ -134,7 +134,7 @@ ShownText = Annotated[str, AfterValidator(hide_places)]
 def build_problem(
     status: int, kind: str, detail: str, violations: Sequence[Violation] = ()
 ) -> Problem:
-    """The problem of this kind, one of `TITLES`."""
+    """Build the problem of this kind, a key of `TITLES`."""
     models = [build_violation(violation) for violation in violations]
     return Problem(
         type=TYPE_PREFIX + kind,
@@ -152,7 +152,7 @@ def answer_problem(
     headers: Mapping[str, str] | None = None,
     violations: Sequence[Violation] = (),
 ) -> JSONResponse:
-    """The problem as an answer."""
+    """Build the answer that contains a problem."""
     body = build_problem(status, kind, detail, violations).model_dump(mode="json")
     return JSONResponse(body, status, headers, MEDIA_TYPE)
 
@@ -165,7 +165,7 @@ def answer_violations(violations: Sequence[Violation], place: str = "") -> JSONR
 
 
 def build_violation(violation: Violation) -> ViolationModel:
-    """A rejected value on the wire."""
+    """Build the description of a rejected value in an answer."""
     return ViolationModel(
         name=_make_text(violation.name),
         value=_make_safe(violation.value),

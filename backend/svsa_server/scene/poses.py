@@ -57,11 +57,11 @@ def _list_acting(session: Session) -> list[Load]:
 def _read_arm(session: Session) -> ArmPose | None:
     """Read both joints, the comparison's angles and the loads at the tip."""
     lanes = range(len(session.run.configuration.lanes))
-    found = [_read_lane(session, lane) for lane in lanes]
-    first, second, *others = found
+    poses = [_read_lane(session, lane) for lane in lanes]
+    first, second, *others = poses
     if first is None or second is None:
         return None
-    angles = [math.nan if one is None else one.position_rad for one in others]
+    angles = [math.nan if pose is None else pose.position_rad for pose in others]
     is_compared = len(angles) == JOINTS and all(map(math.isfinite, angles))
     segments = list_session_segments(session)
     return ArmPose(
