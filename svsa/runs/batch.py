@@ -137,18 +137,18 @@ class _Part(NamedTuple):
         if design is not None:
             designs = [design] * len(blocks)
             shares = compute_shares(design.observer, blocks[0].period)
-            blocks = [one._replace(shares=shares) for one in blocks]
-        given = [
-            (one.get_parameters(lane), build_setting(own))
-            for one, own in zip(designs, blocks, strict=True)
+            blocks = [block._replace(shares=shares) for block in blocks]
+        arguments = [
+            (configuration.get_parameters(lane), build_setting(own))
+            for configuration, own in zip(designs, blocks, strict=True)
         ]
-        first = installed.build(*given[0])
+        first = installed.build(*arguments[0])
         if is_for_vectors(
             installed.control, blocks[0].nominal, first, lay_out_record(installed.memory())
         ):
-            constants = [installed.build(*one) for one in given]
+            constants = [installed.build(*pair) for pair in arguments]
             return build_batch(installed, blocks, constants, (), self.inputs)
-        bound = [installed.bind(*one) for one in given]
+        bound = [installed.bind(*pair) for pair in arguments]
         return build_batch(installed, blocks, (), bound, self.inputs)
 
 

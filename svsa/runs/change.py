@@ -80,9 +80,9 @@ def build_commands(
             raise ParameterError(Violation("commands", change, "", "a list of svsa.Change"))
         check_number("at_s", change.at_s, "s", 0.0, duration_s)
         tick = round(change.at_s / period_s)
-        given = change.list_given()
+        values = change.list_given()
         commands += [
             build_command(tick, kind, value, None if kind in OF_ARM else change.joint)
-            for kind, value in given.items()
+            for kind, value in values.items()
         ]
     return tuple(sorted(commands, key=lambda command: command.tick))

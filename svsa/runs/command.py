@@ -108,7 +108,9 @@ class _Command(Checked):
             super().__init__(**values)
         except ParameterError as error:
             kind = values.get("kind", type(self).model_fields["kind"].default)
-            raise ParameterError(*(_rename(one, kind) for one in error.violations)) from None
+            raise ParameterError(
+                *(_rename(violation, kind) for violation in error.violations)
+            ) from None
 
     @property
     def label(self) -> str:
@@ -221,8 +223,8 @@ def list_changes(
         return {}
     match command.kind:
         case "law" | "laws":
-            given = (command.argument,) if command.kind == "law" else command.argument
-            laws = (given[0], given[0], *given[2:]) if is_bench and comparisons else given
+            names = (command.argument,) if command.kind == "law" else command.argument
+            laws = (names[0], names[0], *names[2:]) if is_bench and comparisons else names
             others = _replace_laws(laws, comparisons)
             return {"law": laws[0]} | ({"comparisons": others} if len(laws) > 1 else {})
         case "lane":
@@ -300,11 +302,11 @@ def read_command(written: Any) -> Command:
     """
     if not isinstance(written, dict):
         raise ParameterError(Violation("command", written, "", "an object with named fields"))
-    given: dict[str, Any] = {"tick": None, "kind": None, "argument": None} | written
-    return build_command(given["tick"], given["kind"], given["argument"], given.get("joint"))
+    fields: dict[str, Any] = {"tick": None, "kind": None, "argument": None} | written
+    return build_command(fields["tick"], fields["kind"], fields["argument"], fields.get("joint"))
 
 
-def _read_value(field: str, given: Any) -> Any:
+def _read_value(field: str, value: Any) -> Any:
     """Validate the value of a settable field.
 
     Raises:
@@ -312,9 +314,11 @@ def _read_value(field: str, given: Any) -> Any:
     """
     model = _VALUES[field]
     try:
-        return model.model_validate({"argument": given}).argument  # pyright: ignore[reportAttributeAccessIssue]
+        return model.model_validate({"argument": value}).argument  # pyright: ignore[reportAttributeAccessIssue]
     except ValidationError as error:
-        raise ParameterError(*(_rename(one, field) for one in explain(error, model))) from None
+        raise ParameterError(
+            *(_rename(violation, field) for violation in explain(error, model))
+        ) from None
 
 
 def _rename(violation: Violation, kind: str) -> Violation:

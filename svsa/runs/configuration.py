@@ -90,8 +90,8 @@ class Design(Checked):
         Raises:
             ParameterError: If the law is not installed and no parameters are set.
         """
-        given = self.find_parameters(lane)
-        return get_law(lane.law).parameters() if given is None else given
+        parameters = self.find_parameters(lane)
+        return get_law(lane.law).parameters() if parameters is None else parameters
 
 
 class Lane(Checked):
@@ -110,9 +110,9 @@ class Lane(Checked):
 
     @field_validator("parameters")
     @classmethod
-    def _read_parameters(cls, given: Any, info: ValidationInfo) -> LawParameters | None:
+    def _read_parameters(cls, parameters: Any, info: ValidationInfo) -> LawParameters | None:
         law = info.data.get("law")
-        return given if given is None or law is None else read_parameters(law, given)
+        return parameters if parameters is None or law is None else read_parameters(law, parameters)
 
     def controlled_by(self, law: str) -> Self:
         """Return the lane with another law: gains and observer are kept, parameters are not.
@@ -203,12 +203,12 @@ class Configuration(Design):
             raise ParameterError(Violation("arm.joint2.loads", "push", "", bound))
         if second.sampling != self.sampling:
             bound = f"{self.sampling.period_s:g} s, as that of joint 1"
-            given = second.sampling.period_s
-            raise ParameterError(Violation("arm.joint2.sampling.period_s", given, "s", bound))
+            value = second.sampling.period_s
+            raise ParameterError(Violation("arm.joint2.sampling.period_s", value, "s", bound))
         if len(second.comparisons) != len(self.comparisons):
             bound = f"{len(self.comparisons)}, as for joint 1"
-            given = len(second.comparisons)
-            raise ParameterError(Violation("arm.joint2.comparisons", given, "", bound))
+            value = len(second.comparisons)
+            raise ParameterError(Violation("arm.joint2.comparisons", value, "", bound))
         return self
 
     @property
@@ -290,27 +290,27 @@ def _has_push(joint: Configuration) -> bool:
 
 def _list_wrong(joint: Configuration, arm: ArmSetup, is_second: bool) -> list[Violation]:
     """List what a joint of an arm cannot have."""
-    found: list[Violation] = []
+    violations: list[Violation] = []
     if is_second and joint.arm is not None:
-        found.append(Violation("arm", "an arm", "", "None: an arm has two joints"))
+        violations.append(Violation("arm", "an arm", "", "None: an arm has two joints"))
     if len(joint.comparisons) > MAX_LANES // 2 - 1:
         bound = f"at most {MAX_LANES // 2 - 1} comparison of an arm"
-        found.append(Violation("comparisons", len(joint.comparisons), "", bound))
+        violations.append(Violation("comparisons", len(joint.comparisons), "", bound))
     if joint.effects.gravity is not None:
         bound = "None: the weight of the links is in the parameters of the arm"
-        found.append(Violation("effects.gravity", joint.effects.gravity, "", bound))
+        violations.append(Violation("effects.gravity", joint.effects.gravity, "", bound))
     for load in joint.loads:
         if load.acts_as == MASS or (is_second and load.acts_as == TIP):
             bound = "torques; a mass hangs at the tip (tip_mass), which is a load of joint 1"
-            found.append(Violation("loads", load.kind, "", bound))
+            violations.append(Violation("loads", load.kind, "", bound))
     for lane in joint.controllers if arm.feedforward else ():
         if is_usable(lane.law) and not get_law(lane.law).takes_feedforward:
             bound = (
                 "a law that takes the arm feedforward: this one estimates the complete"
                 " disturbance, so the feedforward would count twice, or it does not use q̈_d"
             )
-            found.append(Violation("law", lane.law, "", bound))
-    return found
+            violations.append(Violation("law", lane.law, "", bound))
+    return violations
 
 
 ArmSetup.model_rebuild()

@@ -45,7 +45,7 @@ def list_controllers(
         _build(joints[number % len(joints)], lane, places[number])
         for number, lane in enumerate(lanes)
     ]
-    counts, taken, found = Counter(alone), set[Controller](), dict[int, Controller]()
+    counts, taken, controllers_by_lane = Counter(alone), set[Controller](), dict[int, Controller]()
     kept = dict(enumerate(before))
     for number in sorted(range(len(alone)), key=lambda n: not _is_copy_of(kept.get(n), alone[n])):
         controller, held = alone[number], kept.get(number)
@@ -54,27 +54,28 @@ def list_controllers(
         while controller in taken:
             controller = controller._replace(copy=controller.copy + 1)
         taken.add(controller)
-        found[number] = controller
-    return [found[number] for number in range(len(alone))]
+        controllers_by_lane[number] = controller
+    return [controllers_by_lane[number] for number in range(len(alone))]
 
 
-def is_shown_together(one: Controller, other: Controller) -> bool:
+def is_shown_together(controller: Controller, other: Controller) -> bool:
     """Whether two controllers are in one plot: all but those of different joints."""
-    return one.place == other.place or one.place not in JOINTS
+    return controller.place == other.place or controller.place not in JOINTS
 
 
 def name_controllers(controllers: Iterable[Controller]) -> dict[Controller, str]:
     """Name each controller: lane and law, and for equal laws the differing parameters."""
-    described = {one: _describe(one) for one in dict.fromkeys(controllers)}
+    described = {controller: _describe(controller) for controller in dict.fromkeys(controllers)}
     alike: dict[tuple[str, str], list[dict[str, str]]] = {}
-    for one, numbers in described.items():
-        alike.setdefault((one.place, one.law), []).append(numbers)
+    for controller, numbers in described.items():
+        alike.setdefault((controller.place, controller.law), []).append(numbers)
     differing = {law: _find_differing(numbers) for law, numbers in alike.items()}
     names: dict[Controller, str] = {}
-    for one, numbers in described.items():
-        reported = differing[one.place, one.law]
-        apart = (f"{symbol} {value}" for symbol, value in numbers.items() if symbol in reported)
-        names[one] = " ".join(filter(None, (one.place, get_title(one.law), *apart)))
+    for controller, numbers in described.items():
+        place, law = controller.place, controller.law
+        symbols = differing[place, law]
+        apart = (f"{symbol} {value}" for symbol, value in numbers.items() if symbol in symbols)
+        names[controller] = " ".join(filter(None, (place, get_title(law), *apart)))
     return _number_doubles(names)
 
 

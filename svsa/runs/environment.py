@@ -93,8 +93,8 @@ class ActuatorEnv(gymnasium.Env[np.ndarray, np.ndarray]):
         """
         super().reset(seed=seed)
         noise = int(self.np_random.integers(_SEED_END))
-        given: Any = {"seed": noise, **(options or {})}
-        seen = self.stepper.reset(**given)
+        changes: Any = {"seed": noise, **(options or {})}
+        seen = self.stepper.reset(**changes)
         return _flatten(seen), self._describe(seen)
 
     def step(self, action: np.ndarray) -> tuple[np.ndarray, float, bool, bool, dict[str, Any]]:

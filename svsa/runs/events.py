@@ -26,7 +26,7 @@ def list_events(
     configuration: Configuration,
     commands: Iterable[Command],
     fault: Fault | None = None,
-    reported: Iterable[Event] = (),
+    bench_events: Iterable[Event] = (),
 ) -> list[Event]:
     """List the events of a run with these commands, in order of time.
 
@@ -37,16 +37,16 @@ def list_events(
         configuration: Configuration at tick 0.
         commands: Commands of the run.
         fault: Fault at the end of the run, or None.
-        reported: Events that a bench reported.
+        bench_events: Events that a bench reported.
 
     Returns:
         The events.
     """
     commands, laws = list(commands), list_laws(configuration)
-    found: list[tuple[float, str, str]] = []
+    entries: list[tuple[float, str, str]] = []
     for command in commands:
         if not isinstance(command, ApplyLoad | RemoveLoad):
-            found.append((command.tick, command.kind, describe_change(command, laws)))
+            entries.append((command.tick, command.kind, describe_change(command, laws)))
             if (law := find_law(command)) is not None:
                 laws = [
                     law if command.joint in (None, number) else held
@@ -54,15 +54,15 @@ def list_events(
                 ]
     for _, load, start, end, _ in list_loads(configuration, commands):
         if start < end:
-            found.append((start, "load_on", describe_onset(load)))
-            found.append((end, "load_off", describe_end(load)))
-    found += [(event.tick, event.kind, event.label) for event in reported]
+            entries.append((start, "load_on", describe_onset(load)))
+            entries.append((end, "load_off", describe_end(load)))
+    entries += [(event.tick, event.kind, event.label) for event in bench_events]
     if fault is not None:
-        found.append((fault.tick, "fault", label_fault(fault.code)))
+        entries.append((fault.tick, "fault", label_fault(fault.code)))
     period_s = configuration.sampling.period_s
     return [
         Event(int(tick), tick * period_s, kind, label)
-        for tick, kind, label in sorted(found, key=lambda one: one[0])
+        for tick, kind, label in sorted(entries, key=lambda entry: entry[0])
         if tick < float("inf")
     ]
 
@@ -85,9 +85,9 @@ def describe_change(command: Command, laws: Sequence[LawName]) -> str:
     if command.joint is not None:
         alone = describe_change(command.of_joint(None), laws[command.joint - 1 :])
         return f"Joint {command.joint}: {alone}"
-    given = find_law(command)
-    if given is not None and given != laws[0]:
-        return f"{get_title(laws[0])} → {get_title(given)}"
+    new_law = find_law(command)
+    if new_law is not None and new_law != laws[0]:
+        return f"{get_title(laws[0])} → {get_title(new_law)}"
     match command:
         case Set(kind="lane", argument=argument):
             return f"{get_title(argument.setting.law)} set"

@@ -25,7 +25,7 @@ LOAD_DEFLECTION_RAD = 0.05
 def build_experiment(
     experiment: str | Configuration,
     parameters: Design | Path | str | None,
-    given: Mapping[str, Any],
+    changes: Mapping[str, Any],
     caller: Callable[..., Any],
 ) -> Configuration:
     """Build the configuration of an experiment.
@@ -34,7 +34,7 @@ def build_experiment(
         experiment: A figure of the paper ("4a", "4b", "5") or a `Configuration`.
         parameters: A parameter file, such as `svsa identify` writes, or its `Design`, instead of
             the experiment's own.
-        given: Changes, as in `svsa.runs.shorthand.Settings`.
+        changes: Changes, as in `svsa.runs.shorthand.Settings`.
         caller: The function that the user called; the error message suggests its keywords.
 
     Raises:
@@ -47,7 +47,7 @@ def build_experiment(
     if parameters is not None:
         design = parameters if isinstance(parameters, Design) else read_design(parameters)
         configuration = configuration.with_design(design)
-    return change_configuration(configuration, given, inspect.signature(caller).parameters)
+    return change_configuration(configuration, changes, inspect.signature(caller).parameters)
 
 
 def choose_stiffness(mechanism: Mechanism) -> float:

@@ -8,7 +8,10 @@ from svsa.runs.configuration import Configuration, Lane
 
 def find_lane_origins(before: Configuration, after: Configuration) -> list[int | None]:
     """Return for each lane the number of the lane that it continues, from 0; None for a new one."""
-    own, others = (list(zip(*_list_comparisons(one), strict=True)) for one in (before, after))
+    own, others = (
+        list(zip(*_list_comparisons(configuration), strict=True))
+        for configuration in (before, after)
+    )
     width = len(after.joints)
     return [
         None if origin is None else width * origin + joint

@@ -29,7 +29,7 @@ def give_load(
     """
     held = continue_push(loads, load, tick, period)
     if held is not None:
-        return held, tuple(held if one.number == held.number else one for one in loads)
+        return held, tuple(held if other.number == held.number else other for other in loads)
     scheduled = schedule_load(number, load, tick, period)._replace(joint=joint)
     return scheduled, (*loads, scheduled)
 
@@ -71,7 +71,7 @@ def trace_loads(
     number = 0
     for tick, change in [*((0, load) for load in planned), *changes]:
         if isinstance(change, int):
-            loads = tuple(_end(one, tick) if one.number == change else one for one in loads)
+            loads = tuple(_end(load, tick) if load.number == change else load for load in loads)
         else:
             number += 1
             _, loads = give_load(loads, number, change, tick, period)

@@ -187,8 +187,8 @@ class RunningMetrics:
         position, stiffness = self._position, self._stiffness
         has_moved = followed.tally.stiffness_peak > UNMOVED_NM_PER_RAD
         recovered, stiffness_recovered = (
-            None if one.recovered < 0.0 else one.recovered * period
-            for one in (followed.position, followed.stiffness)
+            None if step.recovered < 0.0 else step.recovered * period
+            for step in (followed.position, followed.stiffness)
         )
         return Metrics(
             duration_s=followed.passed * period,

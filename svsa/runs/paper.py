@@ -129,7 +129,7 @@ def get_simulated_figure(key: str) -> Figure:
     figure = get_figure(key)
     if figure.key not in BENCH_FIGURES:
         return figure
-    simulated = next(one for one, bench in ON_BENCH.items() if bench == figure.key)
+    simulated = next(name for name, bench in ON_BENCH.items() if bench == figure.key)
     bound = (
         f"a simulated figure, {', '.join(FIGURES)}. Figure {figure.key.upper()} is measured on a"
         f' bench: run svsa.reproduce(("{figure.key}",)) for it on the emulated bench, or simulate'

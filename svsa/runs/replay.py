@@ -107,4 +107,8 @@ def list_load_changes(
 
 
 def _select_load_changes(commands: Iterable[Command]) -> list[tuple[int, Load | int]]:
-    return [(one.tick, one.argument) for one in commands if isinstance(one, ApplyLoad | RemoveLoad)]
+    return [
+        (command.tick, command.argument)
+        for command in commands
+        if isinstance(command, ApplyLoad | RemoveLoad)
+    ]

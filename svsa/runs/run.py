@@ -153,14 +153,14 @@ class Run:
         for plant in reversed(range(len(self.lanes) // width)):
             first = plant * width
             rows = samples[first : first + width, :done]
-            reached[plant] = one = self._advance_plant(plant, rows)
-            for lane, code in enumerate(one.codes, start=first):
-                if code != INSIDE and one.ticks < done:
-                    done, x = one.ticks, one.lanes[lane - first].x
-                    name, tick = self._name_lane(lane), self.tick + one.ticks
+            reached[plant] = plant_state = self._advance_plant(plant, rows)
+            for lane, code in enumerate(plant_state.codes, start=first):
+                if code != INSIDE and plant_state.ticks < done:
+                    done, x = plant_state.ticks, plant_state.lanes[lane - first].x
+                    name, tick = self._name_lane(lane), self.tick + plant_state.ticks
                     self.fault = build_fault(code, lane, tick, self.blocks[lane], x, name)
-        for plant, one in reached.items():
-            if one.ticks > done:
+        for plant, plant_state in reached.items():
+            if plant_state.ticks > done:
                 first = plant * width
                 rows = samples[first : first + width, :done]
                 reached[plant] = self._advance_plant(plant, rows)
@@ -170,7 +170,7 @@ class Run:
 
     def _keep(self, reached: list[Reached]) -> None:
         """Take over the states that the plants have reached."""
-        self.lanes = [lane for one in reached for lane in one.lanes]
+        self.lanes = [lane for plant_state in reached for lane in plant_state.lanes]
 
     def _name_lane(self, number: int) -> str:
         """Name a lane's law, with a number if another has the same; "" for a single lane."""
@@ -237,7 +237,9 @@ class Run:
                     origins = find_lane_origins(before, after)
                 self._connect(after, origins)
                 width = len(after.joints)
-                begun = [at % width if one is None else one for at, one in enumerate(origins)]
+                begun = [
+                    at % width if origin is None else origin for at, origin in enumerate(origins)
+                ]
                 self.lanes = [
                     _follow_law(self.lanes[begin], before.lanes[begin].law, lane.law)
                     for begin, lane in zip(begun, after.lanes, strict=True)
@@ -247,13 +249,13 @@ class Run:
 
     def _push(self, kind: str, after: Configuration, joint: int | None) -> None:
         """Blend in a reference of one joint, or of each."""
-        for number, one in enumerate(after.joints):
+        for number, setup in enumerate(after.joints):
             if joint in (None, number + 1):
                 if kind == "position":
-                    stack = push_trajectory(self._positions[number], one.position, self.time_s)
+                    stack = push_trajectory(self._positions[number], setup.position, self.time_s)
                     self._positions[number] = stack
                 else:
-                    stack = push_trajectory(self._stiffnesses[number], one.stiffness, self.time_s)
+                    stack = push_trajectory(self._stiffnesses[number], setup.stiffness, self.time_s)
                     self._stiffnesses[number] = stack
         self._renew_inputs()
 
@@ -283,12 +285,12 @@ class Run:
         """`add_load` without the table that the loop reads."""
         lasting = tuple(kept for kept in self.loads if kept.end_tick >= self.tick)
         number = self._load_count + 1
-        given, loads = give_load(lasting, number, load, self.tick, self.period_s, joint)
+        scheduled, loads = give_load(lasting, number, load, self.tick, self.period_s, joint)
         if len(loads) > MAX_LOADS:
             raise StateError(f"{MAX_LOADS} loads are applied or planned: clear one first.")
         self._load_count = number
         self.loads = loads
-        return given
+        return scheduled
 
     def remove_load(self, number: int) -> ScheduledLoad:
         """Remove a load.
@@ -315,8 +317,8 @@ class Run:
             connect_lane(connection, *joints[number % len(joints)], lane, self.steps, self._bind)
             for number, (connection, lane) in enumerate(zip(held, c.lanes, strict=True))
         ]
-        self.blocks = [one.blocks for one in self._connections]
-        self.laws = [one.law for one in self._connections]
+        self.blocks = [connection.blocks for connection in self._connections]
+        self.laws = [connection.law for connection in self._connections]
 
     def _renew_inputs(self) -> None:
         table = build_load_table(self.loads)

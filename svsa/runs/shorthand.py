@@ -104,26 +104,26 @@ _LISTED = str | Mapping | Checked
 
 
 def change_configuration(
-    configuration: Configuration, given: Mapping[str, Any], keywords: Iterable[str] = ()
+    configuration: Configuration, settings: Mapping[str, Any], keywords: Iterable[str] = ()
 ) -> Configuration:
     """Return the configuration with these settings.
 
     Args:
         configuration: The configuration to change.
-        given: As `Settings`, and `law`.
+        settings: As `Settings`, and `law`.
         keywords: Further keywords of the caller, which the error message may suggest.
 
     Raises:
         ParameterError: If there is no such setting, or its value is invalid.
     """
     known = [*_FORMS, *_OTHERS]
-    unknown = [name for name in given if name not in known]
+    unknown = [name for name in settings if name not in known]
     if unknown:
         raise ParameterError(
             *(
                 Violation(
                     name,
-                    given[name],
+                    settings[name],
                     "",
                     "",
                     finding=f"there is no such keyword{suggest(name, [*keywords, *known])}",
@@ -132,12 +132,12 @@ def change_configuration(
             )
         )
     present = dict(configuration)
-    if isinstance(name := given.get("actuator"), str):
+    if isinstance(name := settings.get("actuator"), str):
         mechanism = read_mechanism(name)
         present |= mechanism
-        given = mechanism | {key: value for key, value in given.items() if key != "actuator"}
+        settings = mechanism | {key: value for key, value in settings.items() if key != "actuator"}
     return configuration.changed(
-        **{name: read_setting(name, value, present[name]) for name, value in given.items()}
+        **{name: read_setting(name, value, present[name]) for name, value in settings.items()}
     )
 
 
@@ -154,74 +154,74 @@ def read_mechanism(name: str, field: str = "actuator") -> dict[str, Any]:
     Raises:
         ParameterError: If no actuator of that name is installed.
     """
-    found = get_mechanism(name, field)
-    (position, stiffness), beta = found.poles_rad_per_s, found.observer_rad_per_s
+    mechanism = get_mechanism(name, field)
+    (position, stiffness), beta = mechanism.poles_rad_per_s, mechanism.observer_rad_per_s
     read: dict[str, Any] = {
-        "actuator": found.prototype,
-        "nominal": found.nominal,
-        "limits": found.limits,
+        "actuator": mechanism.prototype,
+        "nominal": mechanism.nominal,
+        "limits": mechanism.limits,
         "gains": Gains.from_poles([-position] * 4, [-stiffness] * 2),
         "observer": ObserverBandwidth(bandwidth_rad_per_s=(beta, beta, beta)),
     }
-    only = find_only_stiffness(found.nominal)
+    only = find_only_stiffness(mechanism.nominal)
     if only is not None:
         read["stiffness"] = ConstantStiffness(stiffness_nm_per_rad=only)
     return read
 
 
-def read_setting(name: str, given: Any, present: Any) -> Any:
+def read_setting(name: str, written: Any, present: Any) -> Any:
     """Convert an abbreviated setting to its validated value.
 
     Args:
         name: Name of the setting, such as "stiffness".
-        given: The value in the script.
+        written: The value in the script.
         present: The current value, which a partial value changes.
 
     Raises:
         ParameterError: If the value is invalid; the message describes valid ones.
     """
     if name in ("loads", "comparisons"):
-        return _read_each(given, name, read_load if name == "loads" else read_lane)
+        return _read_each(written, name, read_load if name == "loads" else read_lane)
     form = _FORMS.get(name)
     if form is None:
-        return given
-    value = _spell_out(name, given)
+        return written
+    value = _spell_out(name, written)
     if form.is_partial and isinstance(value, Mapping):
         try:
             return present.changed(**value)
         except ParameterError as error:
             raise error.within(name) from None
-    return _check(name, value, given, form)
+    return _check(name, value, written, form)
 
 
-def _spell_out(name: str, given: Any) -> Any:
+def _spell_out(name: str, value: Any) -> Any:
     """Replace a number or a name by the value that it abbreviates."""
-    is_number = isinstance(given, int | float) and not isinstance(given, bool)
+    is_number = isinstance(value, int | float) and not isinstance(value, bool)
     try:
         match name:
             case "position" if is_number:
-                return ConstantPosition(position_rad=given)
+                return ConstantPosition(position_rad=value)
             case "stiffness" if is_number:
-                return ConstantStiffness(stiffness_nm_per_rad=given)
+                return ConstantStiffness(stiffness_nm_per_rad=value)
             case "observer" if is_number:
-                return ObserverBandwidth(bandwidth_rad_per_s=(given, given, given))
-            case "effects" if isinstance(given, str):
-                return next((one for key, one in PRESETS.items() if key == given), given)
+                return ObserverBandwidth(bandwidth_rad_per_s=(value, value, value))
+            case "effects" if isinstance(value, str):
+                return next((preset for key, preset in PRESETS.items() if key == value), value)
     except ParameterError as error:
         raise error.within(name) from None
-    return given
+    return value
 
 
-def _check(name: str, value: Any, given: Any, form: _Form) -> Any:
+def _check(name: str, value: Any, written: Any, form: _Form) -> Any:
     if not isinstance(value, Checked | Mapping):
-        raise ParameterError(Violation(name, given, "", form.cure))
+        raise ParameterError(Violation(name, written, "", form.cure))
     try:
         return form.read(value)
     except ParameterError as error:
         raise error.within(name) from None
     except ValidationError as error:
         if isinstance(value, Checked):
-            raise ParameterError(Violation(name, given, "", form.cure)) from None
+            raise ParameterError(Violation(name, written, "", form.cure)) from None
         raise ParameterError(*explain(error)).within(name) from None
 
 
@@ -229,35 +229,35 @@ _LOAD = _Form(Load, 'a load, such as svsa.PaperLoad() or {"kind": "paper"}')
 _LANE = _Form(Lane, 'svsa.Lane(law="fl"), or the name of a law')
 
 
-def _read_each(given: Any, name: str, read: Callable[[Any, str], Any]) -> tuple[Any, ...]:
+def _read_each(values: Any, name: str, read: Callable[[Any, str], Any]) -> tuple[Any, ...]:
     """Read each element of a list; anything else is a list of one element."""
-    if isinstance(given, _LISTED) or not isinstance(given, Iterable):
-        given = (given,)
-    return tuple(read(one, f"{name}[{number}]") for number, one in enumerate(given))
+    if isinstance(values, _LISTED) or not isinstance(values, Iterable):
+        values = (values,)
+    return tuple(read(value, f"{name}[{number}]") for number, value in enumerate(values))
 
 
-def read_loads(given: Any, name: str) -> tuple[AnyLoad, ...]:
+def read_loads(loads: Any, name: str) -> tuple[AnyLoad, ...]:
     """Return loads from one load or several, also from dicts.
 
     Raises:
         ParameterError: If one is not a load; the message contains `name` and its number.
     """
-    return _read_each(given, name, read_load)
+    return _read_each(loads, name, read_load)
 
 
-def read_load(given: Any, name: str = "load") -> AnyLoad:
+def read_load(load: Any, name: str = "load") -> AnyLoad:
     """Return a load, also from a dict.
 
     Raises:
         ParameterError: If it is neither; the message contains `name`.
     """
-    return _check(name, given, given, _LOAD)
+    return _check(name, load, load, _LOAD)
 
 
-def read_lane(given: Any, name: str) -> Lane:
+def read_lane(lane: Any, name: str) -> Lane:
     """Return a lane, also from the name of a law.
 
     Raises:
         ParameterError: If it is neither; the message contains `name`.
     """
-    return _check(name, {"law": given} if isinstance(given, str) else given, given, _LANE)
+    return _check(name, {"law": lane} if isinstance(lane, str) else lane, lane, _LANE)

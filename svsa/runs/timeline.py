@@ -142,7 +142,11 @@ class Timeline:
     ) -> list[list[Segment]]:
         """List each lane's segments that reach beyond a tick, at most the newest ones."""
         return [
-            [one for one in lane if one.end_tick is None or one.end_tick > first_tick][-most:]
+            [
+                segment
+                for segment in lane
+                if segment.end_tick is None or segment.end_tick > first_tick
+            ][-most:]
             for lane in self.lanes
         ]
 
@@ -152,7 +156,7 @@ class Timeline:
         They are named together, in the order of appearance; the result is cached until other lanes
         are requested.
         """
-        controllers = {one.number: one.controller for lane in lanes for one in lane}
+        controllers = {segment.number: segment.controller for lane in lanes for segment in lane}
         if controllers.keys() != self._names.keys():
             numbers = sorted(controllers)
             names = name_controllers(controllers[number] for number in numbers)
@@ -209,20 +213,20 @@ class Timeline:
         stored law uses, otherwise one that no current controller uses.
         """
         used = {
-            one.controller: one.line_style
+            segment.controller: segment.line_style
             for lane in self.lanes
-            for one in lane
-            if is_shown_together(one.controller, controller)
+            for segment in lane
+            if is_shown_together(segment.controller, controller)
         }
         if controller in used:
             return used[controller]
         customary = list_law_line_styles()
         own = customary.get(controller.law)
-        of_others = {one: style for one, style in used.items() if one.law != controller.law}
-        others = [one for one in present if is_shown_together(one, controller)]
-        owed = {customary.get(one.law, 0) for one in others if one.law != controller.law}
+        of_others = {other: style for other, style in used.items() if other.law != controller.law}
+        others = [other for other in present if is_shown_together(other, controller)]
+        owed = {customary.get(other.law, 0) for other in others if other.law != controller.law}
         kept = {style % LINE_COLORS for style in of_others.values()}
-        now = {style % LINE_COLORS for one, style in of_others.items() if one in present}
+        now = {style % LINE_COLORS for other, style in of_others.items() if other in present}
         free = [
             color for color in range(LINE_COLORS) if color not in {o % LINE_COLORS for o in owed}
         ]

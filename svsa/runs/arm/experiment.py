@@ -77,7 +77,7 @@ ARMS: Mapping[str, NamedArm] = {
 
 def build_arm_experiment(
     experiment: str | Configuration,
-    given: Mapping[str, Any],
+    fields: Mapping[str, Any],
     both: Mapping[str, Any],
     each: Sequence[Mapping[str, Any]] = ({}, {}),
     tip_loads: Load | Sequence[Load] | None = None,
@@ -86,7 +86,7 @@ def build_arm_experiment(
 
     Args:
         experiment: Name of an arm ("rods", "maccepa"), or the configuration of an arm.
-        given: Fields of `ArmSetup` to replace.
+        fields: Fields of `ArmSetup` to replace.
         both: Settings of both joints, as `svsa.runs.shorthand.Settings` and `law`.
         each: Settings of joint 1 and of joint 2, after those of both.
         tip_loads: Loads at the tip; None: those of the experiment.
@@ -101,7 +101,7 @@ def build_arm_experiment(
     """
     first = experiment
     if not isinstance(first, Configuration):
-        first = _build_named(first, given.get("links"))
+        first = _build_named(first, fields.get("links"))
     arm = first.require_arm()
     joints = []
     for number, (joint, own) in enumerate(zip(split_joints(first), each, strict=True), start=1):
@@ -115,7 +115,7 @@ def build_arm_experiment(
     at_tip = tuple(load for load in first.loads if load.acts_as == TIP)
     at_tip = at_tip if tip_loads is None else _read_tip_loads(tip_loads)
     own, second = joints
-    setup = arm.changed(**{**given, "joint2": second})
+    setup = arm.changed(**{**fields, "joint2": second})
     if setup.tip is not None and any("position" in settings for settings in (both, *each)):
         raise reject_position(setup.tip)
     return own.changed(arm=setup, loads=(*own.loads, *at_tip))
@@ -134,8 +134,8 @@ def reject_position(tip: TipReference) -> ParameterError:
     return ParameterError(Violation("arm.tip", tip.kind, "", bound))
 
 
-def _read_tip_loads(given: Load | Sequence[Load]) -> tuple[Load, ...]:
-    loads = read_loads(given, "tip_loads")
+def _read_tip_loads(tip_loads: Load | Sequence[Load]) -> tuple[Load, ...]:
+    loads = read_loads(tip_loads, "tip_loads")
     for number, load in enumerate(loads):
         if load.acts_as != TIP:
             bound = "a load at the tip; give a load on a joint as loads of joint1 or joint2"
@@ -165,8 +165,8 @@ def _build_joint(
     actuator: str, inertia: float, position: AnyPosition, **settings: Any
 ) -> Configuration:
     """The configuration of a joint with the prototype of an actuator. inertia: kg·m²."""
-    given = {"link_inertia_kg_m2": inertia}
-    joint = build_actuator_experiment(actuator, PAPERS_LAW, False, given, given)
+    changes = {"link_inertia_kg_m2": inertia}
+    joint = build_actuator_experiment(actuator, PAPERS_LAW, False, changes, changes)
     return change_configuration(joint, {"position": position, **settings})
 
 

@@ -55,17 +55,17 @@ class ArmRun(Run):
         self._join_blocks(self.configuration)
         for first in range(0, len(self.lanes), 2):
             known = plan(self.arms[first // 2], self.arm_inputs, 0)
-            for lane, one in enumerate(known, start=first):
-                r = one.reference
+            for lane, planned in enumerate(known, start=first):
+                r = planned.reference
                 x = State(r.q, r.dq, r.q, r.dq, 0.0, 0.0)
                 begun = self.lanes[lane]._replace(x=x, known=x)
-                self.lanes[lane] = shift_estimate(begun, one.w)
+                self.lanes[lane] = shift_estimate(begun, planned.w)
             self._coupled.append(Coupled(known[0], known[1], Payload()))
 
     @property
     def payloads_kg(self) -> list[float]:
         """Estimated mass at the tip of each arm, kg; 0 without adaptation."""
-        return [one.payload.mass for one in self._coupled]
+        return [coupled.payload.mass for coupled in self._coupled]
 
     @property
     def states(self) -> list[ArmState]:
@@ -97,7 +97,7 @@ class ArmRun(Run):
 
     def _keep(self, reached: list[Reached]) -> None:
         super()._keep(reached)
-        self._coupled = [one.coupled for one in reached]
+        self._coupled = [plant_state.coupled for plant_state in reached]
 
     def _name_lane(self, number: int) -> str:
         arm = " of the comparison" if number > 1 else ""
@@ -152,7 +152,7 @@ class ArmRun(Run):
             for number in (1, 2)
         ]
         stacks = zip(self._positions, self._stiffnesses, tables, strict=True)
-        first, second = (Inputs(*one) for one in stacks)
+        first, second = (Inputs(*parts) for parts in stacks)
         self.arm_inputs = ArmInputs(first, second, build_tip_table(self.loads, self.period_s))
 
 

@@ -60,11 +60,14 @@ def read_acting(header: RecordHeader, commands: Commands, first_tick: int, ticks
             changes = _read_changes(command, held["comparisons"], header.plant != "simulated")
             held |= changes
             for name, value in changes.items():
-                # Commands before the first sample count as given at that sample; the last of them
+                # Commands before the first sample count as sent at that sample; the last of them
                 # is valid there.
                 values[name][max(first_tick, tick)] = value
     return Acting(
-        {name: _drop_repeated(list(found.items())) for name, found in values.items()},
+        {
+            name: _drop_repeated(list(changes_by_tick.items()))
+            for name, changes_by_tick in values.items()
+        },
         _find_loads(header, commands, first_tick, end),
     )
 

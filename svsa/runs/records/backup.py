@@ -133,7 +133,9 @@ def restore(archive: Path, folder: Path) -> str:
                 )
             folder.mkdir(parents=True, exist_ok=True)
             # The filter rejects names that lead out of the folder.
-            tar.extractall(folder, (one for one in tar if one.name != MANIFEST), filter="data")
+            tar.extractall(
+                folder, (member for member in tar if member.name != MANIFEST), filter="data"
+            )
     except (OSError, tarfile.TarError, EOFError, ValueError, KeyError, TypeError) as error:
         raise BackupError(f"{archive} cannot be restored: {error}.") from None
     return str(manifest["svsa"])

@@ -41,10 +41,10 @@ def decimate(values: np.ndarray, points: int) -> Decimated:
 
 
 def _find_first(
-    values: np.ndarray, wanted: np.ndarray, starts: np.ndarray, stride: int
+    values: np.ndarray, extremes: np.ndarray, starts: np.ndarray, stride: int
 ) -> np.ndarray:
     """Return the position of each value's first occurrence in its stretch."""
     place = np.arange(len(values)) % stride
     place = place.reshape(-1, *[1] * (values.ndim - 1))
-    spread = np.repeat(wanted, stride, axis=0)[: len(values)]
+    spread = np.repeat(extremes, stride, axis=0)[: len(values)]
     return np.minimum.reduceat(np.where(values == spread, place, stride), starts)

@@ -70,9 +70,9 @@ def compare_settings(records: Sequence[Record]) -> tuple[Difference, ...]:
     tables = [_list_rows(record) for record in records]
     keys = dict.fromkeys(key for table in tables for key in table)
     order = [*dict.fromkeys(_GROUPS.values()), _ARM, _LOADS, _CHANGED, _RECORD]
-    found = [Difference(*key, tuple(table.get(key) for table in tables)) for key in keys]
-    differing = [one for one in found if any(value != one.values[0] for value in one.values)]
-    return tuple(sorted(differing, key=lambda one: order.index(one.group)))
+    differences = [Difference(*key, tuple(table.get(key) for table in tables)) for key in keys]
+    differing = [row for row in differences if any(value != row.values[0] for value in row.values)]
+    return tuple(sorted(differing, key=lambda row: order.index(row.group)))
 
 
 def _list_rows(record: Record) -> Rows:
@@ -88,8 +88,8 @@ def _list_rows(record: Record) -> Rows:
     rows[_LOADS, "Loads", ""] = _describe_loads(acting, record)
     for setting in SETTINGS:
         if changes := acting.settings[setting][1:]:
-            reported = [_describe_change(setting, value, tick, record) for tick, value in changes]
-            rows[_CHANGED, _TITLES[setting], ""] = "; ".join(reported)
+            texts = [_describe_change(setting, value, tick, record) for tick, value in changes]
+            rows[_CHANGED, _TITLES[setting], ""] = "; ".join(texts)
     if header.is_arm:
         for name, value in _flatten_arm(header.configuration["arm"], ""):
             rows[_ARM, name, ""] = value
@@ -152,15 +152,15 @@ def _flatten_gains(gains: Gains, lane: str) -> Iterator[tuple[tuple[str, str], V
 def _flatten_parameters(
     law: str, parameters: LawParameters, lane: str
 ) -> Iterator[tuple[tuple[str, str], Value]]:
-    for symbol, reported in parameters.describe().items():
+    for symbol, value in parameters.describe().items():
         name = f"{lane}{describe_law(law)} {symbol}"
-        yield (name[:1].upper() + name[1:], ""), reported
+        yield (name[:1].upper() + name[1:], ""), value
 
 
 def _flatten_observer(observer: Any, lane: str) -> Iterator[tuple[tuple[str, str], Value]]:
     name = f"{lane}observer β of link, motor 1, motor 2, {_ANGULAR}"
-    reported = ", ".join(f"{beta:g}" for beta in observer.bandwidth_rad_per_s)
-    yield (name[:1].upper() + name[1:], ""), reported
+    bandwidths = ", ".join(f"{beta:g}" for beta in observer.bandwidth_rad_per_s)
+    yield (name[:1].upper() + name[1:], ""), bandwidths
 
 
 def format_poles(roots: Sequence[complex]) -> str:
@@ -189,22 +189,20 @@ def _flatten_model(model: BaseModel) -> Iterator[tuple[tuple[str, str], Value]]:
             yield from _flatten_model(value)
         elif value is not None:
             is_plain = isinstance(value, str | bool | int | float)
-            reported = value if is_plain else ", ".join(map(str, value))
-            yield (name, "" if unit == "1" else unit), reported
+            shown = value if is_plain else ", ".join(map(str, value))
+            yield (name, "" if unit == "1" else unit), shown
 
 
 def _describe_loads(acting: Acting, record: Record) -> str:
     if acting.loads is None:
         return UNKNOWN
-    reported = [
-        f"{on.load.describe()} {_format_time(on.start_tick, record)}" for on in acting.loads
-    ]
-    return "; ".join(reported) or NO_LOAD
+    texts = [f"{on.load.describe()} {_format_time(on.start_tick, record)}" for on in acting.loads]
+    return "; ".join(texts) or NO_LOAD
 
 
 def _describe_change(setting: str, value: Any, tick: int, record: Record) -> str:
-    reported = UNKNOWN if value is None else _FORMATTERS[setting](value)
-    return f"{reported} {_format_time(tick, record)}"
+    text = UNKNOWN if value is None else _FORMATTERS[setting](value)
+    return f"{text} {_format_time(tick, record)}"
 
 
 def _format_time(tick: int, record: Record) -> str:
@@ -213,7 +211,7 @@ def _format_time(tick: int, record: Record) -> str:
 
 
 def _format_model(value: BaseModel) -> str:
-    return ", ".join(f"{name}: {reported}" for (name, _), reported in _flatten_model(value))
+    return ", ".join(f"{name}: {field}" for (name, _), field in _flatten_model(value))
 
 
 _TITLES = {
@@ -235,9 +233,9 @@ _FORMATTERS: dict[str, Callable[[Any], str]] = {
     "stiffness": describe_reference,
     "law": describe_law,
     "comparisons": describe_lanes,
-    "gains": lambda gains: ", ".join(str(reported) for _, reported in _flatten_gains(gains, "")),
+    "gains": lambda gains: ", ".join(str(gain) for _, gain in _flatten_gains(gains, "")),
     "parameters": lambda value: ", ".join(
-        f"{name} {reported}" for (name, _), reported in _flatten("parameters", value)
+        f"{name} {number}" for (name, _), number in _flatten("parameters", value)
     ),
     "observer": lambda observer: ", ".join(f"{b:g}" for b in observer.bandwidth_rad_per_s),
     "effects": describe_effects,

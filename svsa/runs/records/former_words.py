@@ -54,10 +54,10 @@ def translate_results(written: Any) -> Any:
         written: A value read from JSON.
     """
     if isinstance(written, list):
-        return [translate_results(one) for one in written]
+        return [translate_results(element) for element in written]
     if not isinstance(written, dict):
         return written
-    present = {name: translate_results(one) for name, one in written.items()}
+    present = {name: translate_results(field) for name, field in written.items()}
     if isinstance(scenario := present.get("scenario"), str):
         present["scenario"] = _translate_scenario(scenario)
     return translate_fields(present, RESULTS)

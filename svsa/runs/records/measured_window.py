@@ -67,10 +67,10 @@ def find_measured_window(record: Record) -> MeasuredWindow | None:
     loads = [window for window in there if window.kind == "load" and window.first_tick >= first]
     controlled = [window for window in there if window.kind != "stop"]
     window = (loads or controlled or there)[-1]
-    found = _build(record, window, _name_lanes(timeline, max(first, window.first_tick)))
+    measured = _build(record, window, _name_lanes(timeline, max(first, window.first_tick)))
     ends = [load.end_tick for load in list_loads(*read_origin(record))]
-    load_ended = any(found.first_tick < tick < found.end_tick for tick in ends)
-    return replace(found, load_ended=window.kind == "load" and load_ended)
+    load_ended = any(measured.first_tick < tick < measured.end_tick for tick in ends)
+    return replace(measured, load_ended=window.kind == "load" and load_ended)
 
 
 def summarize(
@@ -80,14 +80,14 @@ def summarize(
 
     If the load ended within the window, there is no steady-state error under load.
     """
-    found = tuple(metrics for lane in lanes if (metrics := lane.summarize()) is not None)
+    measured = tuple(metrics for lane in lanes if (metrics := lane.summarize()) is not None)
     if window.load_ended:
         unknown = {
             "steady_state_position_error_rad": None,
             "steady_state_stiffness_error_nm_per_rad": None,
         }
-        found = tuple(replace(metrics, **unknown) for metrics in found)
-    return found if all(metrics.is_finite for metrics in found) else None
+        measured = tuple(replace(metrics, **unknown) for metrics in measured)
+    return measured if all(metrics.is_finite for metrics in measured) else None
 
 
 def measure(record: Record, window: MeasuredWindow) -> tuple[Metrics, ...] | None:
@@ -110,10 +110,12 @@ def measure(record: Record, window: MeasuredWindow) -> tuple[Metrics, ...] | Non
 def write_metrics(record: Record) -> str:
     """Convert the measured window of a record and its metrics to JSON; "null" without a window."""
     window = find_measured_window(record)
-    found = None if window is None else measure(record, window)
-    if window is None or found is None:
+    measured = None if window is None else measure(record, window)
+    if window is None or measured is None:
         return "null"
-    lanes = {name: one.to_dict() for name, one in zip(record.header.lanes, found, strict=True)}
+    lanes = {
+        name: metrics.to_dict() for name, metrics in zip(record.header.lanes, measured, strict=True)
+    }
     return json.dumps({"window": asdict(window), "lanes": lanes})
 
 
@@ -132,5 +134,7 @@ def _name_lanes(timeline: Timeline, tick: int) -> tuple[str, ...]:
     """Name the controller of each lane at a tick."""
     lanes = timeline.list_segments()
     names = timeline.name_segments(lanes)
-    present = [[one for one in lane if one.first_tick <= tick] or lane for lane in lanes]
+    present = [
+        [segment for segment in lane if segment.first_tick <= tick] or lane for lane in lanes
+    ]
     return tuple(names[lane[-1].number] for lane in present)

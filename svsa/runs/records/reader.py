@@ -146,18 +146,18 @@ def open_record(folder: Path) -> Record:
     if not folder.is_dir():
         raise RecordError(f"There is no record {folder.name}.")
     header, (commands, _) = read_header(folder), read_commands(folder)
-    reported = read_fault(folder), read_start(folder), read_events(folder)
+    outcome = read_fault(folder), read_start(folder), read_events(folder)
     if (batches := _read_unfinished(folder, header)) is not None:
         first = batches[0].column("tick")[0].as_py() if batches else 0
         count = sum(batch.num_rows for batch in batches)
-        return Record(header, commands, first, count, _read_from(batches), *reported)
+        return Record(header, commands, first, count, _read_from(batches), *outcome)
     with open_parquet(folder) as file:
         count = file.metadata.num_rows
         if not file.schema_arrow.equals(build_schema(header)):
             raise RecordError(f"{PARQUET_FILE} of record {folder.name} has other columns.")
     read = _read_from_parquet(folder)
     ticks = [batch.column("tick")[0].as_py() for batch in read(["tick"], 0, min(1, count))]
-    return Record(header, commands, ticks[0] if ticks else 0, count, read, *reported)
+    return Record(header, commands, ticks[0] if ticks else 0, count, read, *outcome)
 
 
 def _read_unfinished(folder: Path, header: RecordHeader) -> list[pa.RecordBatch] | None:

@@ -109,8 +109,8 @@ class Recorder:
     def write_samples(self, first_tick: int, samples: np.ndarray) -> None:
         """Samples (ticks, lanes, channels) of first_tick, first_tick + 1, …; copied."""
         if samples.ndim != 3 or samples.shape[1:] != self._shape:
-            wanted = "(ticks, {}, {})".format(*self._shape)
-            self._fail(f"Recording ended: samples of shape {samples.shape}, not {wanted}.")
+            expected = "(ticks, {}, {})".format(*self._shape)
+            self._fail(f"Recording ended: samples of shape {samples.shape}, not {expected}.")
         elif self._next_tick not in (None, first_tick):
             self._fail(f"Recording ended: from tick {self._next_tick} to {first_tick} is a jump.")
         elif len(samples):

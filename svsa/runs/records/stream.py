@@ -123,8 +123,8 @@ def read_stream(path: Path, header: RecordHeader) -> Iterator[pa.RecordBatch]:
         for number, message in enumerate(_read_messages(file, path)):
             try:
                 if number == 0:
-                    found = pa.ipc.read_schema(message)
-                    if not found.equals(schema):
+                    file_schema = pa.ipc.read_schema(message)
+                    if not file_schema.equals(schema):
                         raise RecordError(f"{_name(path)} has other columns than its header says.")
                     continue
                 batch = pa.ipc.read_record_batch(message, schema)

@@ -128,7 +128,7 @@ def judge(
     if not ticks or not asked:
         raise RecordError(f"Runs {own.run_id} and {others.run_id} have nothing to compare.")
     channels = tuple(_judge_channels(run, other, asked, ticks, begins))
-    held = left == others_left and all(one.held for one in channels)
+    held = left == others_left and all(channel.held for channel in channels)
     return Verdict(held, ticks, run.tick_count, other.tick_count, channels, not_compared)
 
 
@@ -143,10 +143,10 @@ def _judge_channels(
     units = {channel.name: channel.unit for channel in header.channels}
     for name, tolerance in asked.items():
         values = read_channel(run, name, begins[0], ticks)
-        wanted = read_channel(other, name, begins[1], ticks)
-        low, high = build_band(wanted, tolerance, round(tolerance.time_s / header.period_s))
+        reference = read_channel(other, name, begins[1], ticks)
+        low, high = build_band(reference, tolerance, round(tolerance.time_s / header.period_s))
         # Unknown in both runs is no difference; unknown in one of them is.
-        unknown = np.isnan(values) & np.isnan(wanted)
+        unknown = np.isnan(values) & np.isnan(reference)
         excesses = np.where(unknown, -np.inf, np.maximum(low - values, values - high))
         for number, lane in enumerate(header.lanes):
             excess = excesses[:, number]

@@ -70,9 +70,9 @@ class ArmResult:
     def _list_commands(self, joint: int) -> tuple[Command, ...]:
         """List the changes of a joint, of the comparison without those of the first arm's law."""
         return tuple(
-            one
-            for one in self.commands
-            if one.joint in (None, joint) and (self.number == 0 or find_law(one) is None)
+            command
+            for command in self.commands
+            if command.joint in (None, joint) and (self.number == 0 or find_law(command) is None)
         )
 
     @property

@@ -48,7 +48,7 @@ def compare(
     from svsa.runs.result.recorded import compare_runs, find_record
 
     try:
-        for header in (find_record(one).header for one in (run, other)):
+        for header in (find_record(name).header for name in (run, other)):
             if newer := describe_newer(header.version):
                 _messages.print(f"Note: {header.run_id}: {newer}", highlight=False, markup=False)
         verdict = compare_runs(
@@ -98,18 +98,18 @@ def read_tolerances(path: Path) -> "dict[str, Tolerance]":
 def build_verdict_table(verdict: "Verdict") -> list[Table | str]:
     """Build a table with each channel's worst moment, and the verdict in a line."""
     table = Table("lane", "channel", "unit", "held", "worst at", "value", "band")
-    for one in verdict.channels:
-        held = "yes" if one.held else "NO"
-        band = f"{one.low:.6g} to {one.high:.6g}"
-        cells = f"{one.worst_s:.6g} s", f"{one.value:.6g}", band
-        table.add_row(one.lane, one.channel, one.unit, held, *cells)
-    failed = sum(not one.held for one in verdict.channels)
-    reported = f"{failed} of {len(verdict.channels)} channels not held" if failed else "All held"
-    reported += f" over {verdict.ticks} ticks"
+    for judged in verdict.channels:
+        held = "yes" if judged.held else "NO"
+        band = f"{judged.low:.6g} to {judged.high:.6g}"
+        cells = f"{judged.worst_s:.6g} s", f"{judged.value:.6g}", band
+        table.add_row(judged.lane, judged.channel, judged.unit, held, *cells)
+    failed = sum(not judged.held for judged in verdict.channels)
+    conclusion = f"{failed} of {len(verdict.channels)} channels not held" if failed else "All held"
+    conclusion += f" over {verdict.ticks} ticks"
     if verdict.own_ticks != verdict.other_ticks:
         lengths = f"not as long: {verdict.own_ticks} and {verdict.other_ticks} ticks"
-        reported = f"Not held: {lengths}. {reported}"
-    return [table, f"{reported}."]
+        conclusion = f"Not held: {lengths}. {conclusion}"
+    return [table, f"{conclusion}."]
 
 
 def _plain(value: Any) -> Any:

@@ -20,17 +20,17 @@ def hide_progress() -> None:
 
 
 @contextmanager
-def follow_progress(title: str, given: Follow | None) -> Iterator[Follow]:
+def follow_progress(title: str, follow_share: Follow | None) -> Iterator[Follow]:
     """Return the function to call with the finished share of a run.
 
     Args:
         title: Title of the progress bar.
-        given: Function to call instead of showing a bar. Without it, a bar appears after
+        follow_share: Function to call instead of showing a bar. Without it, a bar appears after
             `SHOWN_AFTER_S` if standard error is a terminal and the run is in the main thread.
     """
     is_main = threading.current_thread() is threading.main_thread()
-    if given is not None or _silent.is_set() or not is_main or not sys.stderr.isatty():
-        yield given or (lambda share: None)
+    if follow_share is not None or _silent.is_set() or not is_main or not sys.stderr.isatty():
+        yield follow_share or (lambda share: None)
         return
     begin, update = time.monotonic(), None
     with ExitStack() as shown:

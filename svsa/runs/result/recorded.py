@@ -193,9 +193,9 @@ def compare_runs(
         RecordError: If the runs differ in lanes or periods, or have no common time.
     """
     rest = Tolerance(absolute=absolute, relative=relative, time_s=time_s)
-    given = dict(tolerances or {})
-    given |= {name: given.get(name, rest) for name in channels or ()}
-    return judge(find_record(run), find_record(other), given, None if channels else rest)
+    by_channel = dict(tolerances or {})
+    by_channel |= {name: by_channel.get(name, rest) for name in channels or ()}
+    return judge(find_record(run), find_record(other), by_channel, None if channels else rest)
 
 
 def export_run(run: str | Path | Result, kind: str, target: Path | str) -> None:

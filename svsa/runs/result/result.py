@@ -127,7 +127,7 @@ class Result(Channels):
         """
         from svsa.runs.result.tables import build_dataframe
 
-        return build_dataframe(self.samples, self._tell())
+        return build_dataframe(self.samples, self._build_attributes())
 
     def to_xarray(self) -> "xarray.Dataset":
         """Build an xarray Dataset of all channels; needs the extra `xarray`.
@@ -140,7 +140,7 @@ class Result(Channels):
         """
         from svsa.runs.result.tables import build_dataset
 
-        return build_dataset(self.samples, self._tell())
+        return build_dataset(self.samples, self._build_attributes())
 
     def to_csv(self, path: Path | str) -> None:
         """Write all channels as CSV. The first row names each channel with its unit.
@@ -189,14 +189,14 @@ class Result(Channels):
         self.plot().savefig(stream, format="png", dpi=PICTURE_DPI)
         return stream.getvalue()
 
-    def _tell(self) -> dict[str, str]:
+    def _build_attributes(self) -> dict[str, str]:
         """Describe the run as attributes that every file format can hold."""
-        reported = {"law": self.law, "configuration": self.configuration.model_dump_json()}
+        attributes = {"law": self.law, "configuration": self.configuration.model_dump_json()}
         if self.name:
-            reported["name"] = self.name
+            attributes["name"] = self.name
         if self.fault is not None:
-            reported["fault"] = self.fault.message
-        return reported
+            attributes["fault"] = self.fault.message
+        return attributes
 
     def _describe(self) -> tuple[str, str]:
         """Describe the run in two lines: setup and outcome."""

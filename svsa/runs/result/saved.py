@@ -47,8 +47,8 @@ def build_result_record(result: Result, **known: Any) -> Record:
     if result.law == OWN_LAW:
         configuration = configuration.changed(law=OWN_LAW)
     samples = np.stack([lane.samples for lane in (result, *result.comparisons)], axis=1)
-    given = {"session": SESSION, "name": result.name, "plant": result.plant, "steps": result.steps}
-    header = _build_header(configuration, samples, given | known)
+    fields = {"session": SESSION, "name": result.name, "plant": result.plant, "steps": result.steps}
+    header = _build_header(configuration, samples, fields | known)
     commands = [(command.tick, command.to_json()) for command in result.commands]
     first_tick = round(float(result.time_s[0]) / header.period_s)
     return build_record(header, commands, first_tick, _select(header, samples), result.fault)
@@ -74,8 +74,8 @@ def build_arm_result_record(result: ArmResult, **known: Any) -> Record:
     if not result.samples.shape[1]:
         raise StateError("This run has no samples: it ended before its first tick.")
     samples = np.concatenate([arm.samples for arm in arms]).transpose(1, 0, 2)
-    given = {"session": SESSION, "steps": result.steps}
-    header = _build_header(result.configuration, samples, given | known)
+    fields = {"session": SESSION, "steps": result.steps}
+    header = _build_header(result.configuration, samples, fields | known)
     commands = [(command.tick, command.to_json()) for command in result.commands]
     return build_record(header, commands, 0, _select(header, samples), result.fault)
 

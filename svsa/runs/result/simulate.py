@@ -72,7 +72,7 @@ def simulate(
     configuration = build_experiment(experiment, parameters, {**changes, **named}, simulate)
     period = configuration.sampling.period_s
     ticks = check_size(duration_s, steps, period)
-    given = build_commands(commands, period, duration_s)
+    timed = build_commands(commands, period, duration_s)
     stretch = STRETCH_TICKS if own is None else _OWN_STRETCH_TICKS
     with (
         nullcontext() if own is None else begin_run(own) as controller,
@@ -80,13 +80,13 @@ def simulate(
     ):
         run = Run(configuration, steps, controller)
         samples = np.empty((len(run.lanes), ticks, len(CHANNELS)))
-        for reached, _ in play(run, given, ticks, samples, stretch):
+        for reached, _ in play(run, timed, ticks, samples, stretch):
             follow(reached.tick / ticks)
     laws = [
         OWN_LAW if own else configuration.law,
         *(lane.law for lane in configuration.comparisons),
     ]
-    return build_results(configuration, samples[:, : run.tick], laws, run.fault, given, steps=steps)
+    return build_results(configuration, samples[:, : run.tick], laws, run.fault, timed, steps=steps)
 
 
 def check_size(duration_s: float, steps: int, period_s: float) -> int:

@@ -74,11 +74,11 @@ def simulate_arm(
     both = dict(changes) if law is None else {**changes, "law": law}
     fields = {"feedforward": feedforward, "links": arm, "model": arm if model is None else model}
     fields["tip"] = tip
-    given = {name: value for name, value in fields.items() if value is not None}
+    arm_fields = {name: value for name, value in fields.items() if value is not None}
     if adaptation is not None:
-        given["adaptation"] = PayloadAdaptation() if adaptation is True else adaptation or None
+        arm_fields["adaptation"] = PayloadAdaptation() if adaptation is True else adaptation or None
     each = (joint1 or {}, joint2 or {})
-    c = build_arm_experiment(experiment, given, both, each, tip_loads)
+    c = build_arm_experiment(experiment, arm_fields, both, each, tip_loads)
     period = c.sampling.period_s
     ticks = check_size(duration_s, steps, period)
     run, lanes = ArmRun(c, steps), len(c.lanes)

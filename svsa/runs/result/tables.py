@@ -15,15 +15,15 @@ if TYPE_CHECKING:
 TIME = "time_s"
 
 
-def build_dataframe(samples: np.ndarray, reported: Mapping[str, str]) -> "pandas.DataFrame":
+def build_dataframe(samples: np.ndarray, attributes: Mapping[str, str]) -> "pandas.DataFrame":
     """Build a table with a row per tick and a column per channel.
 
     Args:
         samples: All channels of a run, shape (ticks, channels).
-        reported: Law, fault and other facts of the run, for the attributes.
+        attributes: Law, fault and other facts of the run, for the attributes.
 
     Returns:
-        The frame; its `attrs` have `reported` and the unit of each channel.
+        The frame; its `attrs` have `attributes` and the unit of each channel.
 
     Raises:
         MissingExtraError: If pandas, of the extra of that name, is not installed.
@@ -32,11 +32,11 @@ def build_dataframe(samples: np.ndarray, reported: Mapping[str, str]) -> "pandas
     import pandas
 
     table = pandas.DataFrame(samples, columns=list(CHANNEL_NAMES))
-    table.attrs.update(reported, units={channel.name: channel.unit for channel in CHANNELS})
+    table.attrs.update(attributes, units={channel.name: channel.unit for channel in CHANNELS})
     return table
 
 
-def build_dataset(samples: np.ndarray, reported: Mapping[str, str]) -> "xarray.Dataset":
+def build_dataset(samples: np.ndarray, attributes: Mapping[str, str]) -> "xarray.Dataset":
     """Build a variable per channel along `time_s`, each with `units` and `long_name`.
 
     Raises:
@@ -51,4 +51,4 @@ def build_dataset(samples: np.ndarray, reported: Mapping[str, str]) -> "xarray.D
         for channel, values in columns
     }
     time = variables.pop(TIME)
-    return xarray.Dataset(variables, coords={TIME: time}, attrs=dict(reported))
+    return xarray.Dataset(variables, coords={TIME: time}, attrs=dict(attributes))

@@ -156,13 +156,13 @@ class Database:
             else:
                 total, columns = 0, "id, count(*) OVER ()"
             select = f"SELECT {columns} FROM runs WHERE {where} ORDER BY {order} LIMIT ? OFFSET ?"  # noqa: S608
-            found = connection.execute(select, [*values, *window]).fetchall()
+            rows = connection.execute(select, [*values, *window]).fetchall()
             try:
-                entries = tuple(get(connection, run_id) for run_id, _ in found)
+                entries = tuple(get(connection, run_id) for run_id, _ in rows)
             except UnknownRunError as error:
                 raise DamagedCatalogueError(f"{error}") from None
-        if found and not total:
-            total = found[0][1]
+        if rows and not total:
+            total = rows[0][1]
         return RunPage(entries, total, query.page, query.page_size)
 
     @_rebuilding

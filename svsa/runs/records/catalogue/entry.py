@@ -211,8 +211,8 @@ class Query:
     @property
     def facets(self) -> list[tuple[str, str]]:
         """The given filters: (facet, value)."""
-        given = [(facet, getattr(self, facet)) for facet in FACETS]
-        return [(facet, make_storable(value)) for facet, value in given if value is not None]
+        filters = [(facet, getattr(self, facet)) for facet in FACETS]
+        return [(facet, make_storable(value)) for facet, value in filters if value is not None]
 
 
 def write_entry(entry: RunEntry) -> str:

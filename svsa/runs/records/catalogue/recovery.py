@@ -35,10 +35,10 @@ def index_runs(database: Database, runs: Path, trash: Path) -> Iterator[tuple[in
         Numbers of finished and of all records; first (0, total), then after each record.
     """
     known = database.list_known()
-    found: set[str] = set()
+    present: set[str] = set()
     waiting: list[tuple[Path, bool, str]] = []
     for folder, deleted in _list_folders(runs, trash):
-        found.add(folder.name)
+        present.add(folder.name)
         state, was_deleted, files = known.get(folder.name, ("", deleted, ""))
         is_settled = state in ("complete", "failed", "damaged") and was_deleted == deleted
         with contextlib.suppress(OSError):
@@ -48,7 +48,7 @@ def index_runs(database: Database, runs: Path, trash: Path) -> Iterator[tuple[in
         waiting.append((folder, deleted, state))
     yield 0, len(waiting)
     # Ids begin with the time: the newest runs, which users need most, are listed first.
-    waiting.sort(key=lambda one: one[0].name, reverse=True)
+    waiting.sort(key=lambda item: item[0].name, reverse=True)
     for done, (folder, deleted, state) in enumerate(waiting, 1):
         try:
             _recover_run(database, folder, deleted, state)
@@ -57,7 +57,7 @@ def index_runs(database: Database, runs: Path, trash: Path) -> Iterator[tuple[in
         except OSError as error:  # for example no permission
             _log.warning("Run %s cannot be listed: %s.", folder.name, error)
         yield done, len(waiting)
-    for run_id in known.keys() - found:
+    for run_id in known.keys() - present:
         with contextlib.suppress(UnknownRunError):
             places = (runs / run_id, trash / run_id)
             database.revise(run_id, functools.partial(_miss, places))

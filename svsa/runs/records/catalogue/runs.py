@@ -185,8 +185,8 @@ class Catalogue:
             ChangedRunError: If the revision is no longer `expected`.
         """
         self.get(run_id)
-        given = {"name": name, "tags": tags, "notes": notes}
-        changes: dict[str, Any] = {k: value for k, value in given.items() if value is not None}
+        fields = {"name": name, "tags": tags, "notes": notes}
+        changes: dict[str, Any] = {k: value for k, value in fields.items() if value is not None}
         if tags is not None:
             changes["tags"] = tuple(tags)
 
@@ -364,12 +364,12 @@ class Catalogue:
             raise UnknownRunError(f"There is no run {run_id!r:.80}.")
         return self._locate(self._database.get(run_id))
 
-    def list(self, search: str = "", **wanted: Any) -> RunPage:
+    def list(self, search: str = "", **filters: Any) -> RunPage:
         """Return one page of the list of runs.
 
         Args:
             search: Words that a run must contain, see `Query`.
-            **wanted: Other fields of `Query`.
+            **filters: Other fields of `Query`.
 
         Returns:
             The page.
@@ -377,7 +377,7 @@ class Catalogue:
         Raises:
             ParameterError: If a field is invalid.
         """
-        return self.query(Query(search, **wanted))
+        return self.query(Query(search, **filters))
 
     def _settle(self, entry: RunEntry) -> RunEntry:
         """Return an entry with "recording" removed if its recording has ended."""

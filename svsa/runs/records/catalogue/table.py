@@ -153,10 +153,10 @@ def get(connection: sqlite3.Connection, run_id: str) -> RunEntry:
     Raises:
         UnknownRunError: If there is no such run.
     """
-    found = _find(connection, run_id)
-    if found is None:
+    text = _find(connection, run_id)
+    if text is None:
         raise UnknownRunError(f"There is no run {run_id!r:.80}.")
-    return read_entry(found)
+    return read_entry(text)
 
 
 def has(connection: sqlite3.Connection, run_id: str) -> bool:
@@ -165,8 +165,8 @@ def has(connection: sqlite3.Connection, run_id: str) -> bool:
 
 
 def _find(connection: sqlite3.Connection, run_id: str) -> str | None:
-    found = connection.execute("SELECT entry FROM entries WHERE id = ?", (run_id,)).fetchone()
-    return None if found is None else found[0]
+    row = connection.execute("SELECT entry FROM entries WHERE id = ?", (run_id,)).fetchone()
+    return None if row is None else row[0]
 
 
 def _build_row(entry: RunEntry, trash: int) -> dict[str, Any]:
@@ -210,6 +210,6 @@ def _build_search(connection: sqlite3.Connection, entry: RunEntry) -> str:
         texts += [entry.figure or settings.motion, settings.laws, stiffness, settings.load]
         texts += [settings.effects, f"own {settings.own}" if settings.own else ""]
     if entry.branch_of is not None:
-        found = _find(connection, entry.branch_of.run_id)
-        texts.append(entry.branch_of.run_id if found is None else read_entry(found).title)
+        origin = _find(connection, entry.branch_of.run_id)
+        texts.append(entry.branch_of.run_id if origin is None else read_entry(origin).title)
     return fold("\n".join(texts))

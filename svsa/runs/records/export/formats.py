@@ -49,8 +49,8 @@ class ExportKind(NamedTuple):
 
 def _write_parquet(record: Record, stream: IO[bytes]) -> None:
     batches = record.iterate_batches()
-    reported = record.fault, record.start, record.events
-    write_parquet(stream, record.header, record.commands, batches, *reported)
+    outcome = record.fault, record.start, record.events
+    write_parquet(stream, record.header, record.commands, batches, *outcome)
 
 
 EXPORT_KINDS: dict[str, ExportKind] = {
