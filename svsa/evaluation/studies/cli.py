@@ -67,8 +67,8 @@ def run_command(
     with show_progress(_messages, stored.name, stored.study.row_count) as report:
         done = _run(stored, workers, scheduler, report)
     rows = count_done(stored) * len(stored.study.laws)
-    reported = f"{rows} of {stored.study.row_count} runs of study {stored.name} are done"
-    _messages.print(f"{reported} ({time.monotonic() - begun:.0f} s this time): {stored.folder}")
+    progress = f"{rows} of {stored.study.row_count} runs of study {stored.name} are done"
+    _messages.print(f"{progress} ({time.monotonic() - begun:.0f} s this time): {stored.folder}")
     if not done:
         again = _describe_repeat(source, runs=runs, name=name, workers=workers, scheduler=scheduler)
         _messages.print(f"Continue with: svsa study run {again}")
@@ -119,8 +119,8 @@ def _run(
 
 
 def _describe_repeat(source: str, **options: object) -> str:
-    given = [f"--{name} {value}" for name, value in options.items() if value is not None]
-    return " ".join([source, *given])
+    arguments = [f"--{name} {value}" for name, value in options.items() if value is not None]
+    return " ".join([source, *arguments])
 
 
 @study.command("list")
@@ -184,11 +184,11 @@ def show_command(
     if as_json:
         write_json({"study": name, "laws": laws, "actuators": actuators, "sensitivity": indices})
     else:
-        for actuator, found in actuators.items():
-            Console().print(*build_summary_tables(stored.study, found, actuator))
+        for actuator, summaries in actuators.items():
+            Console().print(*build_summary_tables(stored.study, summaries, actuator))
         Console().print(*build_summary_tables(stored.study, laws))
-        for one in indices:
-            Console().print(build_sensitivity_table(one))
+        for sensitivity in indices:
+            Console().print(build_sensitivity_table(sensitivity))
     if pictures is not None:
         from svsa.evaluation.studies.pictures import save_pictures
 
@@ -246,8 +246,8 @@ def replay_command(
     replay = replay_row(stored, row)
     run_id = record_replay(stored, replay, Catalogue()).id if keep else None
     if as_json:
-        reported = {"row": row, "run_id": run_id, "metrics": replay.metrics}
-        write_json(reported | {"identical": not replay.differing, "differing": replay.differing})
+        report = {"row": row, "run_id": run_id, "metrics": replay.metrics}
+        write_json(report | {"identical": not replay.differing, "differing": replay.differing})
     else:
         table = Table("metric", "unit", "table", "replay", title_justify="left")
         table.title = f"Row {row} of study {name}: {replay.kept['law']}"

@@ -99,11 +99,11 @@ class Cluster:
                 future = next(done)
                 yield begun.pop(future), self._read(future, again)
         except KeyboardInterrupt:
-            finished = [one for one in begun if one.status == "finished"]
+            finished = [future for future in begun if future.status == "finished"]
             with self._ask(again):
-                self._client.cancel([one for one in begun if one not in finished])
-            for one in finished:
-                yield begun[one], self._read(one, again)
+                self._client.cancel([future for future in begun if future not in finished])
+            for done_future in finished:
+                yield begun[done_future], self._read(done_future, again)
             raise
 
     def _submit(self, stored: StoredStudy, span: Span) -> Future:

@@ -106,11 +106,11 @@ def run_in_processes(workers: int, stored: StoredStudy, spans: Iterator[Span]) -
                 finished, _ = wait(begun, return_when=FIRST_COMPLETED)
             except KeyboardInterrupt as error:
                 interrupted = error
-                begun = {one: span for one, span in begun.items() if not one.cancel()}
+                begun = {future: span for future, span in begun.items() if not future.cancel()}
                 continue
-            for one in finished:
+            for future in finished:
                 try:
-                    yield begun.pop(one), one.result()
+                    yield begun.pop(future), future.result()
                 except BrokenProcessPool:
                     text = "A worker was ended from outside. Finished parts are kept: continue with"
                     raise StudyError(f"{text} `svsa study run {stored.name}`.") from None

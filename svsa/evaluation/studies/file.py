@@ -27,7 +27,7 @@ def find_study_file(source: str | Path) -> Path | None:
     path = Path(source)
     if path.suffix in (".toml", ".py"):
         return path
-    return next((one for one in _BUILT_IN.glob("*.toml") if one.stem == str(source)), None)
+    return next((file for file in _BUILT_IN.glob("*.toml") if file.stem == str(source)), None)
 
 
 def read_study(source: str | Path, runs: int | None = None) -> tuple[str, Study]:

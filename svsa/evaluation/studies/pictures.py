@@ -53,7 +53,7 @@ def save_pictures(
     study = stored.study
     rows = rows.filter(pa.compute.field("fault").is_null() | (pa.compute.field("fault") != REFUSED))
     pictures = {"distributions": draw_distributions(study, rows)}
-    numeric = [one.column for one in study.vary if one.is_numeric]
+    numeric = [variation.column for variation in study.vary if variation.is_numeric]
     if len(numeric) > 1 and study.sampling != "sensitivity":
         pictures["success"] = draw_success(study, rows, numeric[0], numeric[1])
     if indices:
@@ -123,12 +123,14 @@ def draw_sensitivity(indices: Sequence[Sensitivity]) -> Picture:
     """Draw Sobol indices with their intervals as bars, the largest first."""
     picture = Picture(figsize=(8.0, 0.9 + 3.0 * len(indices)), layout="constrained")
     panels = picture.subplots(len(indices), 1, squeeze=False)[:, 0]
-    for axes, one in zip(panels, indices, strict=True):
-        names = sorted(one.total_order, key=lambda name: one.total_order[name].value)
+    for axes, sensitivity in zip(panels, indices, strict=True):
+        names = sorted(
+            sensitivity.total_order, key=lambda name: sensitivity.total_order[name].value
+        )
         places = np.arange(len(names))
         for shift, order, label, color in (
-            (-0.2, one.first_order, "its own share", "#0072B2"),
-            (0.2, one.total_order, "with interactions", "#E69F00"),
+            (-0.2, sensitivity.first_order, "its own share", "#0072B2"),
+            (0.2, sensitivity.total_order, "with interactions", "#E69F00"),
         ):
             values = np.array([order[name] for name in names])
             ends = values[:, 1:]
@@ -142,7 +144,9 @@ def draw_sensitivity(indices: Sequence[Sensitivity]) -> Picture:
                 capsize=2,
             )
         axes.set_yticks(places, [_format_setting(name) for name in names])
-        axes.set_xlabel(f"Share of the variance of {one.outcome}, {get_title(one.law)}")
+        axes.set_xlabel(
+            f"Share of the variance of {sensitivity.outcome}, {get_title(sensitivity.law)}"
+        )
         axes.axvline(0.0, color="#444444", linewidth=0.8)
         axes.legend(loc="lower right", fontsize="small")
     return picture
@@ -196,7 +200,7 @@ def find_worst(rows: pa.Table, metrics: Sequence[str], count: int = WORST) -> li
 
 def _find_edges(study: Study, rows: pa.Table, column: str) -> np.ndarray:
     """Compute bin edges: between the values of a grid; otherwise of equal width."""
-    levels = next(one.levels for one in study.vary if one.column == column)
+    levels = next(variation.levels for variation in study.vary if variation.column == column)
     if len(levels) > 1:
         at = np.log(np.sort(levels)) if _is_log(study, column) else np.sort(levels)
         middles = (at[1:] + at[:-1]) / 2.0
@@ -208,8 +212,8 @@ def _find_edges(study: Study, rows: pa.Table, column: str) -> np.ndarray:
 
 
 def _is_log(study: Study, column: str) -> bool:
-    one = next(one for one in study.vary if one.column == column)
-    return one.kind == "log_uniform" or getattr(one, "spacing", "") == "log"
+    variation = next(item for item in study.vary if item.column == column)
+    return variation.kind == "log_uniform" or getattr(variation, "spacing", "") == "log"
 
 
 def _format_setting(column: str) -> str:

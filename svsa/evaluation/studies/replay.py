@@ -58,8 +58,8 @@ def replay_row(stored: StoredStudy, row: int) -> Replay:
     """
     study = stored.study
     check_number("row", row, "", 0, study.row_count - 1)
-    found = select_rows(read_rows(stored), ROW, row).to_pylist()
-    if not found:
+    kept_rows = select_rows(read_rows(stored), ROW, row).to_pylist()
+    if not kept_rows:
         raise StudyError(f"Row {row} of study {stored.name} is not done yet.")
     index, law = divmod(row, len(study.laws))
     (configuration,) = build_configurations(study, study.laws[law], draw(study, index, 1))
@@ -69,7 +69,7 @@ def replay_row(stored: StoredStudy, row: int) -> Replay:
         )
     result = simulate(configuration, duration_s=study.duration_s)
     metrics = measure_samples(result, study.measure_from_s, study.duration_s)
-    return Replay(row, found[0], configuration, result, metrics)
+    return Replay(row, kept_rows[0], configuration, result, metrics)
 
 
 def measure_samples(result: Result, begin_s: float, end_s: float) -> dict[str, float]:
@@ -90,8 +90,8 @@ def record_replay(
 
     `owner` is the id of the user who requested it, in a class.
     """
-    varied = {one.column: replay.kept[one.column] for one in stored.study.vary}
-    reported = [
+    varied = {variation.column: replay.kept[variation.column] for variation in stored.study.vary}
+    lines = [
         f"{name}: {value:g}" if isinstance(value, float) else f"{name}: {value}"
         for name, value in varied.items()
     ]
@@ -101,7 +101,7 @@ def record_replay(
         session=f"study {stored.name}",
         name=f"Study {stored.name}, row {replay.row}",
         tags=("study", stored.name[:50]),
-        notes="\n".join((stored.study.title, *reported)),
+        notes="\n".join((stored.study.title, *lines)),
         owner=owner,
     )
 

@@ -37,8 +37,8 @@ def list_parts(stored: StoredStudy) -> list[tuple[Span, Path]]:
         rows = pa.parquet.read_metadata(table).num_rows
         parts.append(((0, rows // len(stored.study.laws)), table))
     for path in sorted((stored.folder / PARTS).glob("*.parquet")):
-        if found := _PART.fullmatch(path.name):
-            span = int(found[1]), int(found[2])
+        if match := _PART.fullmatch(path.name):
+            span = int(match[1]), int(match[2])
             if not parts or span[0] >= parts[-1][0][1]:
                 parts.append((span, path))
     return parts
@@ -108,7 +108,7 @@ def _read_part(path: Path, columns: list[str] | None) -> pa.Table:
     if columns is not None:
         former = {present: name for name, present in METRICS.items()}
         there = pa.parquet.read_schema(path).names
-        columns = [one if one in there else former.get(one, one) for one in columns]
+        columns = [column if column in there else former.get(column, column) for column in columns]
     return _translate(pa.parquet.read_table(path, columns=columns))
 
 

@@ -115,7 +115,7 @@ def change_settings(configuration: Configuration, changes: Mapping[str, Any]) ->
     """
     name = changes.get(ACTUATOR)
     if isinstance(name, str):
-        others = {path: given for path, given in changes.items() if path != ACTUATOR}
+        others = {path: value for path, value in changes.items() if path != ACTUATOR}
         # Validated only as a whole: the stiffness of the previous actuator may be invalid for this
         # one.
         switched = configuration.model_copy(update=read_mechanism(name))
@@ -126,31 +126,31 @@ def change_settings(configuration: Configuration, changes: Mapping[str, Any]) ->
 def _change_parts(configuration: Configuration, changes: Mapping[str, Any]) -> Configuration:
     """`change_settings` within one actuator."""
     root = _Part()
-    for path, given in changes.items():
+    for path, value in changes.items():
         *steps, last = parse_path(path)
         part: Any = root
         for step in steps:
             part = part.setdefault(step, _Part()) if isinstance(part, _Part) else None
         if not isinstance(part, _Part) or last in part:
             raise ParameterError(Violation("", path, "", "a path that no other path contains"))
-        part[last] = _find_parts(_get_named(path, given))
+        part[last] = _find_parts(_get_named(path, value))
     return _change(configuration, configuration, root)
 
 
-def _get_named(path: str, given: Any) -> Any:
+def _get_named(path: str, value: Any) -> Any:
     named = NAMED.get(path)
-    if named is None or not isinstance(given, str):
-        return given
-    if given not in named:
-        raise ParameterError(Violation(path, given, "", "one of " + ", ".join(named)))
-    return named[given]
+    if named is None or not isinstance(value, str):
+        return value
+    if value not in named:
+        raise ParameterError(Violation(path, value, "", "one of " + ", ".join(named)))
+    return named[value]
 
 
-def _find_parts(given: Any) -> Any:
+def _find_parts(value: Any) -> Any:
     """Interpret a table without a kind as changes within a value."""
-    if isinstance(given, Mapping) and "kind" not in given:
-        return _Part({name: _find_parts(inner) for name, inner in given.items()})
-    return given
+    if isinstance(value, Mapping) and "kind" not in value:
+        return _Part({name: _find_parts(inner) for name, inner in value.items()})
+    return value
 
 
 def _change(whole: Configuration, value: Any, change: Any) -> Any:

@@ -107,10 +107,10 @@ def open_study(name: str, root: Path | None = None) -> StoredStudy:
     try:
         written = load_json((folder / STUDY_FILE).read_text(encoding="utf-8"))
         study = Study(**_translate_definition(written["study"]))
-        reported = written["created"], written["version"], written.get("owner", "")
-        return StoredStudy(name, study, folder, *reported)
+        origin = written["created"], written["version"], written.get("owner", "")
+        return StoredStudy(name, study, folder, *origin)
     except FileNotFoundError:
-        known = ", ".join(one.name for one in list_studies(root)) or "none"
+        known = ", ".join(saved.name for saved in list_studies(root)) or "none"
         raise StudyError(f"There is no study {name} in {root}; there: {known}.") from None
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         raise StudyError(f"Study {name} cannot be read: {error}") from None
@@ -149,18 +149,18 @@ def read_owner(name: str, root: Path | None = None) -> str | None:
 def list_studies(root: Path | None = None) -> list[StoredStudy]:
     """List the saved studies that are readable, by name."""
     root = root or find_studies_folder()
-    found = []
+    studies = []
     for path in sorted(root.glob(f"*/{STUDY_FILE}")):
         try:
-            found.append(open_study(path.parent.name, root))
+            studies.append(open_study(path.parent.name, root))
         except StudyError:
             continue
-    return found
+    return studies
 
 
 def measure_bytes(owner: str, root: Path | None = None) -> int:
     """Compute the disk space of one owner's studies, bytes."""
-    folders = [one.folder for one in list_studies(root) if one.owner == owner]
+    folders = [stored.folder for stored in list_studies(root) if stored.owner == owner]
     files = (path for folder in folders for path in folder.rglob("*"))
     return sum(path.stat().st_size for path in files if path.is_file())
 

@@ -95,7 +95,7 @@ class Study(Checked):
         for number, path in enumerate(paths):
             if path in paths[:number]:
                 raise ParameterError(Violation(f"vary[{number}].path", path, "", "varied once"))
-            whole = [one.path for one in self.vary if not _is_actuator(one)]
+            whole = [variation.path for variation in self.vary if not _is_actuator(variation)]
             if any(path.startswith((f"{other}.", f"{other}[")) for other in whole):
                 bound = "another path: a varied path already contains it"
                 raise ParameterError(Violation(f"vary[{number}].path", path, "", bound))
@@ -135,9 +135,9 @@ class Study(Checked):
     @property
     def varied_actuators(self) -> tuple[str, ...]:
         """Names of the varied actuators; empty if only the base's actuator runs."""
-        for one in self.vary:
-            if _is_actuator(one):
-                return tuple(dict.fromkeys(one.values))
+        for variation in self.vary:
+            if _is_actuator(variation):
+                return tuple(dict.fromkeys(variation.values))
         return ()
 
     def build_base(self, law: str) -> Configuration:
@@ -167,7 +167,7 @@ def _is_actuator(variation: Variation) -> TypeGuard[Choice | Grid]:
     """Whether it varies the actuator by name."""
     if variation.path != ACTUATOR or not isinstance(variation, Choice | Grid):
         return False
-    return all(isinstance(one, str) for one in variation.values)
+    return all(isinstance(value, str) for value in variation.values)
 
 
 def check_measured(measure_from_s: float, duration_s: float) -> None:
@@ -208,19 +208,23 @@ def check_variation(base: Configuration, variation: Variation, name: str) -> Non
         try:
             change_settings(base, {variation.path: scale(variation, present, value)})
         except ParameterError as error:
-            reported = f"with {value!r:.40} there, {error.violations[0].message.removesuffix('.')}"
-            raise ParameterError(
-                Violation(f"{name}.{field}", value, "", "", {}, reported)
-            ) from None
+            finding = f"with {value!r:.40} there, {error.violations[0].message.removesuffix('.')}"
+            raise ParameterError(Violation(f"{name}.{field}", value, "", "", {}, finding)) from None
 
 
 def scale(variation: Variation, present: Any, value: Any) -> Any:
     """Return the factor-scaled value of a setting whose base value is `present`."""
     if not variation.relative:
         return value
-    return tuple(one * value for one in present) if isinstance(present, tuple) else present * value
+    return (
+        tuple(number * value for number in present)
+        if isinstance(present, tuple)
+        else present * value
+    )
 
 
 def _is_numeric(value: Any) -> bool:
     numbers = value if isinstance(value, tuple) and value else (value,)
-    return all(isinstance(one, int | float) and not isinstance(one, bool) for one in numbers)
+    return all(
+        isinstance(number, int | float) and not isinstance(number, bool) for number in numbers
+    )

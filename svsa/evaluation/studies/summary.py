@@ -174,29 +174,31 @@ def pair_studies(first: StoredStudy, second: StoredStudy) -> list[Pairing]:
 
 def _correct(pairings: list[Pairing]) -> list[Pairing]:
     """Correct the p-values of successes and of all metrics by Holm's method."""
-    successes = correct_holm([one.success_p for one in pairings])
-    metrics = iter(correct_holm([p for one in pairings for p in one.p_values.values()]))
+    successes = correct_holm([pairing.success_p for pairing in pairings])
+    metrics = iter(correct_holm([p for pairing in pairings for p in pairing.p_values.values()]))
     return [
-        one._replace(success_p=success, p_values={name: next(metrics) for name in one.p_values})
-        for one, success in zip(pairings, successes, strict=True)
+        pairing._replace(
+            success_p=success, p_values={name: next(metrics) for name in pairing.p_values}
+        )
+        for pairing, success in zip(pairings, successes, strict=True)
     ]
 
 
-def pair_rows(one: pa.Table, other: pa.Table, name: str, other_name: str) -> Pairing:
+def pair_rows(rows: pa.Table, other: pa.Table, name: str, other_name: str) -> Pairing:
     """Compare rows of the same samples, in the same order; p-values uncorrected."""
-    if one[DRAW].to_pylist() != other[DRAW].to_pylist():
+    if rows[DRAW].to_pylist() != other[DRAW].to_pylist():
         raise StudyError(f"{name} and {other_name} have not run the same samples yet.")
-    refused = np.zeros(len(one), dtype=bool)
-    ended = np.zeros(len(one), dtype=bool)
-    for side in (one, other):
+    refused = np.zeros(len(rows), dtype=bool)
+    ended = np.zeros(len(rows), dtype=bool)
+    for side in (rows, other):
         faults = side["fault"].to_pylist()
         refused |= np.array([fault == REFUSED for fault in faults], dtype=bool)
         ended |= np.array([fault is not None for fault in faults], dtype=bool)
-    a, b = (side[SUCCEEDED].to_numpy()[~refused] for side in (one, other))
+    a, b = (side[SUCCEEDED].to_numpy()[~refused] for side in (rows, other))
     only_one, only_other = int(np.sum(a & ~b)), int(np.sum(b & ~a))
     differences = {
-        metric: (one[metric].to_numpy() - other[metric].to_numpy())[~ended]
-        for metric in one.column_names
+        metric: (rows[metric].to_numpy() - other[metric].to_numpy())[~ended]
+        for metric in rows.column_names
         if metric in METRICS and metric in other.column_names
     }
     return Pairing(
@@ -245,13 +247,13 @@ def estimate_sensitivity(study: Study, rows: pa.Table, law: str, outcome: str) -
     sets = {"f_A": values[:1], "f_B": values[1:2], "f_AB": values[2:, None, :]}
     from scipy.stats import sobol_indices  # imported here: the import is slow
 
-    found: Any = sobol_indices(func=sets, n=samples, rng=np.random.default_rng(0))
-    spread = found.bootstrap(n_resamples=1000)
+    indices: Any = sobol_indices(func=sets, n=samples, rng=np.random.default_rng(0))
+    spread = indices.bootstrap(n_resamples=1000)
     names = [variation.column for variation in study.vary]
     orders = []
     for order in ("first_order", "total_order"):
         ends = getattr(spread, order).confidence_interval
-        columns = (np.atleast_1d(x) for x in (getattr(found, order), ends.low, ends.high))
+        columns = (np.atleast_1d(x) for x in (getattr(indices, order), ends.low, ends.high))
         orders.append(
             {
                 name: Interval(*map(float, row))

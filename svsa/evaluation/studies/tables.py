@@ -63,16 +63,23 @@ def build_pairing_table(pairing: Pairing) -> Table:
         f" {format_p(pairing.success_p)}; only the first on {pairing.only_one}, only the second on"
         f" {pairing.only_other}. Below: the {pairing.whole} samples without a fault"
     )
-    for name, one in pairing.differences.items():
-        cells = format_value(name, one.value), format_ends(one, partial(format_value, name))
+    for name, difference in pairing.differences.items():
+        cells = (
+            format_value(name, difference.value),
+            format_ends(difference, partial(format_value, name)),
+        )
         p_value = format_p(pairing.p_values[name])
         table.add_row(format_metric(name), format_unit(name), *cells, p_value)
     return table
 
 
-def format_ends(one: Interval, format_one: Callable[[float], str]) -> str:
+def format_ends(interval: Interval, format_one: Callable[[float], str]) -> str:
     """Format an interval; a dash if the data support none."""
-    return "–" if math.isnan(one.low) else f"{format_one(one.low)} to {format_one(one.high)}"
+    return (
+        "–"
+        if math.isnan(interval.low)
+        else f"{format_one(interval.low)} to {format_one(interval.high)}"
+    )
 
 
 def format_p(value: float) -> str:
@@ -80,16 +87,17 @@ def format_p(value: float) -> str:
     return "–" if math.isnan(value) else "< 0.0001" if value < 1e-4 else f"{value:.2g}"
 
 
-def build_sensitivity_table(one: Sensitivity) -> Table:
+def build_sensitivity_table(sensitivity: Sensitivity) -> Table:
     """Build a table of Sobol indices, largest first, with upper bounds of their intervals."""
     table = Table("what varies", "its own share", "with interactions", title_justify="left")
-    table.title = f"Sobol indices of {one.outcome} under {one.law}, {one.samples} base samples"
-    table.title += "; intervals as if points were independent: upper bounds"
-    order = sorted(one.total_order, key=lambda name: -one.total_order[name].value)
+    table.title = f"Sobol indices of {sensitivity.outcome} under {sensitivity.law}"
+    table.title += f", {sensitivity.samples} base samples; intervals as if points were independent:"
+    table.title += " upper bounds"
+    order = sorted(sensitivity.total_order, key=lambda name: -sensitivity.total_order[name].value)
     for name in order:
         cells = [
             f"{x.value:.3f} ({x.low:.3f} to {x.high:.3f})"
-            for x in (one.first_order[name], one.total_order[name])
+            for x in (sensitivity.first_order[name], sensitivity.total_order[name])
         ]
         table.add_row(name, *cells)
     return table
@@ -126,13 +134,13 @@ def format_share(share: Interval) -> str:
     """
     if math.isnan(share.value):
         return "–"
-    ends = {0.0, 1.0, *(round(one, _MAX_DECIMALS) for one in share)}
-    reported = (
-        [f"{100 * one:.{decimals}f}" for one in share]
+    ends = {0.0, 1.0, *(round(end, _MAX_DECIMALS) for end in share)}
+    texts_by_decimals = (
+        [f"{100 * part:.{decimals}f}" for part in share]
         for decimals in range(_DECIMALS, _MAX_DECIMALS)
-        if len({f"{100 * one:.{decimals}f}" for one in ends}) == len(ends)
+        if len({f"{100 * end:.{decimals}f}" for end in ends}) == len(ends)
     )
-    value, low, high = next(reported)
+    value, low, high = next(texts_by_decimals)
     return f"{value} % ({low} to {high})"
 
 

@@ -101,15 +101,19 @@ def measure_runs(
 
     An actuator whose energy does not have the stiffness range of its limits is rejected, too.
     """
-    run = [index for index, one in enumerate(configurations) if one and _has_domain(one)]
-    built = [one for index in run if (one := configurations[index]) is not None]
+    run = [
+        index
+        for index, configuration in enumerate(configurations)
+        if configuration and _has_domain(configuration)
+    ]
+    built = [configuration for index in run if (configuration := configurations[index]) is not None]
     outcome = build_refused(len(configurations))
     if not built:
         return outcome
-    periods = np.array([one.sampling.period_s for one in built])
+    periods = np.array([configuration.sampling.period_s for configuration in built])
     summaries = run_configurations(built, duration_s, measure_from_s)
-    found = build_outcome(summaries, periods, measure_from_s, success)
-    return found if len(built) == len(configurations) else _fill_in(outcome, run, found)
+    run_outcome = build_outcome(summaries, periods, measure_from_s, success)
+    return run_outcome if len(built) == len(configurations) else _fill_in(outcome, run, run_outcome)
 
 
 def _has_domain(configuration: Configuration) -> bool:
@@ -121,10 +125,12 @@ def _has_domain(configuration: Configuration) -> bool:
     return True
 
 
-def _fill_in(outcome: dict[str, Any], rows: list[int], found: dict[str, Any]) -> dict[str, Any]:
+def _fill_in(
+    outcome: dict[str, Any], rows: list[int], run_outcome: dict[str, Any]
+) -> dict[str, Any]:
     """Insert the outcomes of some rows at their positions."""
     filled: dict[str, Any] = {}
     for name, values in outcome.items():
         filled[name] = np.array(values, dtype=object) if isinstance(values, list) else values
-        filled[name][rows] = found[name]
+        filled[name][rows] = run_outcome[name]
     return filled
