@@ -66,18 +66,18 @@ def search_command(
     known = read_search(path, adversary, seed, "cma")
     with show_progress(_messages, get_title(adversary.law), runs) as report:
         on_generation = _report_worst(adversary, report)
-        found = find(adversary, runs=runs, seed=seed, known=known, on_generation=on_generation)
-    scenario = found.scenario
+        falsified = find(adversary, runs=runs, seed=seed, known=known, on_generation=on_generation)
+    scenario = falsified.scenario
     write_scenario(path, scenario)
     if not as_json:
-        _print_found(found)
-    described = _describe(found, path) if as_json else None
+        _print_found(falsified)
+    described = _describe(falsified, path) if as_json else None
     _compare_laws(scenario, list_baselines(adversary.law), described, picture)
     _messages.print(f"Saved as {path}. Other laws: svsa falsify run {path} --laws all")
-    if not found.is_complete:
-        keep_search(path, adversary, seed, "cma", found.severities)
+    if not falsified.is_complete:
+        keep_search(path, adversary, seed, "cma", falsified.severities)
         _messages.print(
-            f"Interrupted after {len(found.severities)} of {runs} runs, not simplified. The"
+            f"Interrupted after {len(falsified.severities)} of {runs} runs, not simplified. The"
             " same command continues the search."
         )
         raise typer.Exit(INTERRUPTED)
@@ -121,8 +121,8 @@ def list_command() -> None:
 
     table = Table("adversary", "what it may do", "after", "numbers", title_justify="left")
     for name, title in list_adversaries().items():
-        one = read_adversary(name)
-        table.add_row(name, title, one.cost, str(one.size))
+        adversary = read_adversary(name)
+        table.add_row(name, title, adversary.cost, str(adversary.size))
     Console().print(table)
 
 
@@ -147,14 +147,17 @@ def compare_command(
         write_json(compared)
         return
     table = Table("seed", "CMA-ES", "random", title=adversary.title, title_justify="left")
-    for one in compared.results:
+    for seed_result in compared.results:
         cells = [
             f"fault at run {run}"
             if run
             else f"none in {runs}: {format_severity(adversary.cost, x)}"
-            for run, x in ((one.cma_run, one.cma_worst), (one.random_run, one.random_worst))
+            for run, x in (
+                (seed_result.cma_run, seed_result.cma_worst),
+                (seed_result.random_run, seed_result.random_worst),
+            )
         ]
-        table.add_row(str(one.seed), *cells)
+        table.add_row(str(seed_result.seed), *cells)
     Console().print(table)
     Console().print(compared.message)
 
@@ -176,7 +179,7 @@ def _compare_laws(
     if described is None:
         Console().print(_build_table(compared))
     else:
-        write_json(described | {"laws": [one._asdict() for one in compared]})
+        write_json(described | {"laws": [outcome._asdict() for outcome in compared]})
     if picture is not None:
         from svsa.evaluation.falsifier.picture import save_picture
 
@@ -184,42 +187,44 @@ def _compare_laws(
         _messages.print(f"Picture: {picture}", highlight=False)
 
 
-def _describe(found: "Falsified", path: Path) -> dict[str, object]:
-    simple = found.shrunk
+def _describe(falsified: "Falsified", path: Path) -> dict[str, object]:
+    simple = falsified.shrunk
     return {
-        "adversary": found.adversary.title,
-        "law": found.adversary.law,
-        "cost": found.adversary.cost,
-        "seed": found.seed,
-        "runs": len(found.severities),
-        "run": found.run,
-        "complete": found.is_complete,
-        "fault": found.is_fault,
-        "outcome": found.outcome,
+        "adversary": falsified.adversary.title,
+        "law": falsified.adversary.law,
+        "cost": falsified.adversary.cost,
+        "seed": falsified.seed,
+        "runs": len(falsified.severities),
+        "run": falsified.run,
+        "complete": falsified.is_complete,
+        "fault": falsified.is_fault,
+        "outcome": falsified.outcome,
         "shrinking": None if simple is None else {"runs": simple.runs, "steps": simple.steps},
-        "neighborhood": found.neighborhood and found.neighborhood._asdict(),
-        "scenario": found.scenario.model_dump(mode="json", exclude_none=True),
+        "neighborhood": falsified.neighborhood and falsified.neighborhood._asdict(),
+        "scenario": falsified.scenario.model_dump(mode="json", exclude_none=True),
         "file": str(path),
     }
 
 
-def _print_found(found: "Falsified") -> None:
+def _print_found(falsified: "Falsified") -> None:
     from svsa.evaluation.falsifier.description import (
         describe_attack,
         describe_neighborhood,
         format_severity,
     )
 
-    console, a = Console(highlight=False), found.adversary
-    nothing = format_severity(a.cost, found.nothing)
+    console, a = Console(highlight=False), falsified.adversary
+    nothing = format_severity(a.cost, falsified.nothing)
     console.print(f"{get_title(a.law)} without it: {nothing}")
-    console.print(f"Found at run {found.run} of {len(found.severities)}: {found.outcome}")
-    console.print(f"  {describe_attack(found.attack)}")
-    if found.shrunk is not None:
-        simple = found.shrunk
+    console.print(
+        f"Found at run {falsified.run} of {len(falsified.severities)}: {falsified.outcome}"
+    )
+    console.print(f"  {describe_attack(falsified.attack)}")
+    if falsified.shrunk is not None:
+        simple = falsified.shrunk
         console.print(f"Simplified by {simple.runs} runs: {simple.outcome}")
         console.print(f"  {describe_attack(simple.attack)}")
-        console.print(describe_neighborhood(found.scenario.found))
+        console.print(describe_neighborhood(falsified.scenario.found))
 
 
 def _build_table(compared: "list[LawOutcome]") -> Table:
@@ -234,13 +239,17 @@ def _build_table(compared: "list[LawOutcome]") -> Table:
         "peak_stiffness_error_nm_per_rad": "peak of σ",
     }
     table = Table("law", "ends", title="Position error and stiffness error", title_justify="left")
-    for name, reported in names.items():
-        heading = escape(f"{reported}\n[{format_unit(name)}]")
+    for name, title in names.items():
+        heading = escape(f"{title}\n[{format_unit(name)}]")
         table.add_column(heading, justify="right", no_wrap=True)
-    for one in compared:
-        end = "whole" if one.fault is None else f"{label_fault(one.fault)}, {one.fault_s:.3f} s"
-        cells = [format_value(name, one.metrics[name]) for name in names]
-        table.add_row(get_title(one.law), end, *cells)
+    for outcome in compared:
+        end = (
+            "whole"
+            if outcome.fault is None
+            else f"{label_fault(outcome.fault)}, {outcome.fault_s:.3f} s"
+        )
+        cells = [format_value(name, outcome.metrics[name]) for name in names]
+        table.add_row(get_title(outcome.law), end, *cells)
     return table
 
 

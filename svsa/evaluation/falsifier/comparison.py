@@ -43,26 +43,26 @@ def compare_methods(
     """
     results, done = list[SeedResult](), 0
     for seed in seeds:
-        found: list[tuple[int | None, float]] = []
+        faults: list[tuple[int | None, float]] = []
         for method in ("cma", "random"):
 
             def report(count: int, worst: float, before: int = done) -> None:
                 progress(before + count, worst)
 
             options = {"seed": seed, "method": method, "is_shrunk": False}
-            one = falsify(adversary, runs=runs, on_generation=report, **options)
-            found.append((one.run if one.is_fault else None, one.severity))
+            falsified = falsify(adversary, runs=runs, on_generation=report, **options)
+            faults.append((falsified.run if falsified.is_fault else None, falsified.severity))
             done += runs
-        results.append(SeedResult(seed, *found[0], *found[1]))
+        results.append(SeedResult(seed, *faults[0], *faults[1]))
     return MethodComparison(
         adversary.title, adversary.law, runs, tuple(results), _summarize(results)
     )
 
 
 def _summarize(results: list[SeedResult]) -> str:
-    cma = sum(one.cma_run is not None for one in results)
-    random = sum(one.random_run is not None for one in results)
-    first = sum((one.cma_run or inf) < (one.random_run or inf) for one in results)
+    cma = sum(result.cma_run is not None for result in results)
+    random = sum(result.random_run is not None for result in results)
+    first = sum((result.cma_run or inf) < (result.random_run or inf) for result in results)
     return (
         f"Of {len(results)} seeds: CMA-ES found a fault with {cma}, random samples with {random};"
         f" CMA-ES alone or earlier with {first}."

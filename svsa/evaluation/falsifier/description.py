@@ -77,14 +77,14 @@ def _describe_load(load: Load) -> str:
         for size, body in zip(torque, BODIES, strict=False)
         if size != 0.0
     ]
-    reported = [f"{load.kind} of {' and '.join(sizes)}" if sizes else load.kind]
-    reported += [] if load.start_s is None else [f"from {load.start_s:g} s"]
-    reported += [
+    parts = [f"{load.kind} of {' and '.join(sizes)}" if sizes else load.kind]
+    parts += [] if load.start_s is None else [f"from {load.start_s:g} s"]
+    parts += [
         format_run_number(template, value)
         for name, template in NUMBERS.items()
         if (value := getattr(load, name, None)) is not None
     ]
-    return ", ".join(reported)
+    return ", ".join(parts)
 
 
 def _format_value(value: Any) -> str:

@@ -216,48 +216,48 @@ def falsify(
     check_number("seed", seed, "", 0, 2**63 - 1)
 
     def report_worse(number: int, attack: Attack, severity: float) -> None:
-        reported = describe_worst(adversary.cost, severity)
+        text = describe_worst(adversary.cost, severity)
         search = method, seed, number, number
-        on_worse(_describe(adversary, attack, adversary.duration_s, (reported, reported), search))
+        on_worse(_describe(adversary, attack, adversary.duration_s, (text, text), search))
 
-    one = _Search(adversary, runs, known, report_worse)
-    nothing = one.measure([Attack((), {})])
+    state = _Search(adversary, runs, known, report_worse)
+    nothing = state.measure([Attack((), {})])
     if not np.isfinite(nothing.severity[0]):
-        reported = describe_outcome(nothing, 0, adversary.cost)
-        raise FalsifierError(f"{adversary.law} needs no adversary: without any load, {reported}.")
+        text = describe_outcome(nothing, 0, adversary.cost)
+        raise FalsifierError(f"{adversary.law} needs no adversary: without any load, {text}.")
     is_complete = False
 
     def judge(shares: np.ndarray) -> np.ndarray:
-        if one.worst is not None:
-            on_generation(len(one.severities), one.severities[one.worst[0]])
+        if state.worst is not None:
+            on_generation(len(state.severities), state.severities[state.worst[0]])
             if is_cancelled():
                 raise KeyboardInterrupt
-        return one.judge(shares)
+        return state.judge(shares)
 
     try:
         search(method, adversary.size, seed, judge)
     except _EndedError:
         is_complete = True
     except KeyboardInterrupt:
-        if one.worst is None:
+        if state.worst is None:
             raise
-    assert one.worst is not None  # noqa: S101  a generation was judged
-    number, attack = one.worst
-    found = one.measure([attack])
+    assert state.worst is not None  # noqa: S101  a generation was judged
+    number, attack = state.worst
+    measured = state.measure([attack])
     simple = neighborhood = None
     if is_complete and is_shrunk:
-        simple = shrink(adversary, one.base, attack, found)
-        neighborhood = measure_neighborhood(adversary, one.base, simple.attack, found, seed)
+        simple = shrink(adversary, state.base, attack, measured)
+        neighborhood = measure_neighborhood(adversary, state.base, simple.attack, measured, seed)
     return Falsified(
         adversary=adversary,
         method=method,
         seed=seed,
         runs=runs,
-        severities=np.array(one.severities),
+        severities=np.array(state.severities),
         nothing=float(nothing.severity[0]),
         run=number + 1,
         attack=attack,
-        outcome=describe_outcome(found, 0, adversary.cost),
+        outcome=describe_outcome(measured, 0, adversary.cost),
         shrunk=simple,
         neighborhood=neighborhood,
         is_complete=is_complete,

@@ -104,13 +104,13 @@ def list_scenarios(folder: Path | None = None) -> dict[str, LoadScenario]:
 
     folder: None for that of the saved scenarios; `EXAMPLES` for the scenario in the package.
     """
-    found = {}
+    scenarios = {}
     for path in sorted((folder or find_scenarios_folder()).glob(f"*{_SUFFIX}")):
         try:
-            found[path.stem] = read_scenario(path)
+            scenarios[path.stem] = read_scenario(path)
         except ParameterError:
             continue
-    return found
+    return scenarios
 
 
 def keep_scenario(name: str, scenario: LoadScenario) -> Path:
@@ -181,8 +181,10 @@ def keep_search(
 ) -> Path:
     """Save the runs of a search that writes to `path`; return the file."""
     kept_path = path.with_name(path.name + SEARCH_SUFFIX)
-    reported = _describe_search(adversary, seed, method)
-    content = reported | {"severities": [_write_severity(value) for value in severities.tolist()]}
+    description = _describe_search(adversary, seed, method)
+    content = description | {
+        "severities": [_write_severity(value) for value in severities.tolist()]
+    }
     replace_file(kept_path, json.dumps(content).encode())
     return kept_path
 
@@ -205,8 +207,8 @@ def forget_search(path: Path) -> None:
 
 
 def _describe_search(adversary: Adversary, seed: int, method: Method) -> dict[str, Any]:
-    reported: dict[str, Any] = {"version": __version__, "seed": seed, "method": method}
-    return reported | {"adversary": adversary.model_dump(mode="json")}
+    description: dict[str, Any] = {"version": __version__, "seed": seed, "method": method}
+    return description | {"adversary": adversary.model_dump(mode="json")}
 
 
 def _write_severity(value: float) -> float | str:

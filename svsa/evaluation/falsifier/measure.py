@@ -63,13 +63,13 @@ def judge(outcome: dict[str, Any], cost: Cost, duration_s: float, limits: Limits
     return severity
 
 
-def is_as_severe(measured: Measured, found: Measured) -> np.ndarray:
-    """Return whether each run is as severe as the given one: a fault, or 95 % of its cost.
+def is_as_severe(measured: Measured, reference: Measured) -> np.ndarray:
+    """Return whether each run is as severe as the reference: a fault, or 95 % of its cost.
 
     Returns:
         Shape (n,), bool.
     """
-    return measured.severity >= KEPT_SHARE * found.severity[0]
+    return measured.severity >= KEPT_SHARE * reference.severity[0]
 
 
 def _compute_stress(outcome: dict[str, Any], limits: Limits) -> np.ndarray:
@@ -128,14 +128,14 @@ def run_scenario(scenario: LoadScenario, laws: Sequence[str]) -> list[LawOutcome
         ParameterError: If a law is not installed.
     """
     runs = [scenario.build_configuration(check_installed(law)) for law in laws]
-    found = measure_runs(runs, scenario.duration_s, scenario.measure_from_s, Success())
-    rows = zip(laws, runs, found["fault"], found["fault_tick"], strict=True)
+    outcomes = measure_runs(runs, scenario.duration_s, scenario.measure_from_s, Success())
+    rows = zip(laws, runs, outcomes["fault"], outcomes["fault_tick"], strict=True)
     return [
         LawOutcome(
             law,
             fault,
             None if fault is None else tick * run.sampling.period_s,
-            {name: float(found[name][row]) for name in METRICS},
+            {name: float(outcomes[name][row]) for name in METRICS},
         )
         for row, (law, run, fault, tick) in enumerate(rows)
     ]

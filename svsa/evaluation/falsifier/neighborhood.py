@@ -31,7 +31,7 @@ class Neighborhood(NamedTuple):
 
 
 def measure_neighborhood(
-    adversary: Adversary, base: Configuration, attack: Attack, found: Measured, seed: int
+    adversary: Adversary, base: Configuration, attack: Attack, reference: Measured, seed: int
 ) -> Neighborhood:
     """Run random neighbors of an attack, within the adversary's bounds.
 
@@ -42,7 +42,7 @@ def measure_neighborhood(
         adversary: Bounds of the numbers.
         base: The run without the attack.
         attack: The counterexample.
-        found: Its outcome, one row.
+        reference: Its outcome, one row.
         seed: Seed of the random numbers.
 
     Returns:
@@ -64,7 +64,7 @@ def measure_neighborhood(
         neighbors.append(neighbor)
     measured = measure_attacks(adversary, base, neighbors, adversary.duration_s)
     runs = int(np.sum(measured.severity != REFUSAL))
-    return Neighborhood(runs, int(np.sum(is_as_severe(measured, found))))
+    return Neighborhood(runs, int(np.sum(is_as_severe(measured, reference))))
 
 
 def _find_axis(
@@ -75,7 +75,7 @@ def _find_axis(
         load = attack.loads[place.load]
         term = next(term for term in adversary.terms if admits(term, load))
         return term.size if place.body is not None else term.ranges[place.name]
-    variation = next(one for one in adversary.vary if one.path == place.name)
+    variation = next(variation for variation in adversary.vary if variation.path == place.name)
     if not isinstance(variation, Uniform | LogUniform | Normal):
         return None
     present = read_setting(base, place.name) if variation.relative else 1.0

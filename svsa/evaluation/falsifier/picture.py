@@ -34,9 +34,9 @@ def save_picture(scenario: LoadScenario, laws: Sequence[str], path: Path) -> Non
             if fault is not None:
                 axes.plot(times[ends], error[-1], "X", color=style["color"], markersize=10)
         if fault is not None:
-            reported = f"{get_title(law)}: {label_fault(fault).lower()}"
+            label = f"{get_title(law)}: {label_fault(fault).lower()}"
             at = times[ends], shown[0][-1]
-            position.annotate(reported, at, (9, -3), textcoords="offset points", fontsize=9)
+            position.annotate(label, at, (9, -3), textcoords="offset points", fontsize=9)
     torque.set(title=scenario.title, ylabel="Load [N·m]")
     position.set(ylabel="Position error [°]")
     stiffness.set(ylabel="Stiffness error\n[N·m/rad]", xlabel="Time [s]")

@@ -128,9 +128,9 @@ def check_setting(base: Configuration, path: str, value: Any) -> None:
     try:
         change_settings(base, {path: value})
     except ParameterError as error:
-        reported = error.violations[0].message.removesuffix(".")
+        reason = error.violations[0].message.removesuffix(".")
         violation = Violation(
-            f"settings.{path}", value, "", "", {}, f"with {value!r:.40}, {reported}"
+            f"settings.{path}", value, "", "", {}, f"with {value!r:.40}, {reason}"
         )
         raise ParameterError(violation) from None
 

@@ -34,7 +34,7 @@ class Step(NamedTuple):
     """An attack, and the description of its simplification."""
 
     attack: Attack
-    reported: str
+    description: str
 
 
 class Place(NamedTuple):
@@ -88,7 +88,7 @@ def list_smaller(attack: Attack, place: Place, base: Configuration) -> list[Step
         return []
     nominal = _get_nominal(place, base)
     lesser = (nominal + (value - nominal) * part / PARTS for part in range(1, PARTS))
-    return [_set(attack, place, settle_number(one, 6)) for one in lesser]
+    return [_set(attack, place, settle_number(number, 6)) for number in lesser]
 
 
 def list_rounder(attack: Attack, place: Place, base: Configuration) -> list[Step]:
@@ -96,10 +96,10 @@ def list_rounder(attack: Attack, place: Place, base: Configuration) -> list[Step
     value, nominal = dict(list_places(attack))[place], _get_nominal(place, base)
     rounded = dict.fromkeys(settle_number(value, digits) for digits in DIGITS)
     return [
-        _set(attack, place, one)
-        for one in rounded
-        if one not in (value, 0.0)
-        and (place.load is not None or abs(one - nominal) <= abs(value - nominal))
+        _set(attack, place, number)
+        for number in rounded
+        if number not in (value, 0.0)
+        and (place.load is not None or abs(number - nominal) <= abs(value - nominal))
     ]
 
 
@@ -127,10 +127,10 @@ def _set(attack: Attack, place: Place, value: float) -> Step:
     if place.load is None:
         return Step(changed, f"{place.name} = {value:g}")
     if place.body is not None:
-        reported = format_run_number("{:g} N·m on ", value) + BODIES[place.body]
+        text = format_run_number("{:g} N·m on ", value) + BODIES[place.body]
     else:
-        reported = format_run_number(NUMBERS.get(place.name, "from {:g} s"), value)
-    return Step(changed, f"{attack.loads[place.load].kind}: {reported}")
+        text = format_run_number(NUMBERS.get(place.name, "from {:g} s"), value)
+    return Step(changed, f"{attack.loads[place.load].kind}: {text}")
 
 
 def _count_bodies(load: Load) -> int:
@@ -155,33 +155,37 @@ class Shrunk(NamedTuple):
     steps: tuple[str, ...]
 
 
-def shrink(adversary: Adversary, base: Configuration, attack: Attack, found: Measured) -> Shrunk:
-    """Simplify an attack that was measured as `found`, within the adversary's bounds.
+def shrink(
+    adversary: Adversary, base: Configuration, attack: Attack, reference: Measured
+) -> Shrunk:
+    """Simplify an attack that was measured as `reference`, within the adversary's bounds.
 
     The simplified attack has the same fault, or at least 95 % of the cost.
     """
-    one = _Shrinking(adversary, base, attack, found)
-    one.remove()
-    one.shorten_run()
+    shrinking = _Shrinking(adversary, base, attack, reference)
+    shrinking.remove()
+    shrinking.shorten_run()
     for _ in range(PASSES):
         for make in (list_smaller, list_rounder):
-            for place, _ in list_places(one.attack):
-                one.simplify(make(one.attack, place, base))
-        if not one.remove():
+            for place, _ in list_places(shrinking.attack):
+                shrinking.simplify(make(shrinking.attack, place, base))
+        if not shrinking.remove():
             break
-    reported = describe_outcome(one.measure([one.attack]), 0, adversary.cost)
-    return Shrunk(one.attack, one.duration_s, reported, one.runs, tuple(one.steps))
+    outcome = describe_outcome(shrinking.measure([shrinking.attack]), 0, adversary.cost)
+    return Shrunk(
+        shrinking.attack, shrinking.duration_s, outcome, shrinking.runs, tuple(shrinking.steps)
+    )
 
 
 class _Shrinking:
     """The state of a simplification."""
 
     def __init__(
-        self, adversary: Adversary, base: Configuration, attack: Attack, found: Measured
+        self, adversary: Adversary, base: Configuration, attack: Attack, reference: Measured
     ) -> None:
         self.attack, self.duration_s = attack, adversary.duration_s
         self.runs, self.steps = 0, list[str]()
-        self._adversary, self._base, self._found = adversary, base, found
+        self._adversary, self._base, self._found = adversary, base, reference
 
     def measure(self, attacks: Sequence[Attack], duration_s: float | None = None) -> Measured:
         """Run these attacks, and count the runs."""
@@ -207,7 +211,7 @@ class _Shrinking:
             return False
         step = allowed[held[0]]
         self.attack = step.attack
-        self.steps.append(step.reported)
+        self.steps.append(step.description)
         return True
 
     def shorten_run(self) -> None:
@@ -226,5 +230,5 @@ class _Shrinking:
         """Return which of these attacks keep the effect."""
         fault = self._found.outcome["fault"][0]
         if fault is not None:
-            return np.array([one == fault for one in measured.outcome["fault"]])
+            return np.array([end == fault for end in measured.outcome["fault"]])
         return is_as_severe(measured, self._found)
