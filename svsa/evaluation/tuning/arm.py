@@ -83,15 +83,15 @@ class ArmTrial(NamedTuple):
         self, controller: ArmController, design: Design, duration_s: float, begin_s: float
     ) -> np.ndarray:
         """Simulate it: the `SUMMARY` of both joints, (2,), measured from `begin_s` on."""
-        given = {name: getattr(design, name) for name in ("gains", "observer", "parameters")}
-        given["law"] = controller.law
+        changes = {name: getattr(design, name) for name in ("gains", "observer", "parameters")}
+        changes["law"] = controller.law
         arm = self.configuration.require_arm()
         setup = arm.changed(
-            joint2=arm.joint2.changed(**given),
+            joint2=arm.joint2.changed(**changes),
             feedforward=controller.feedforward,
             adaptation=PayloadAdaptation() if controller.adaptive else None,
         )
-        configuration = self.configuration.changed(arm=setup, **given)
+        configuration = self.configuration.changed(arm=setup, **changes)
         result = simulate_arm(configuration, duration_s=duration_s)
         return np.concatenate(
             [summarize_result(joint, begin_s, duration_s) for joint in result.joints]
@@ -123,14 +123,14 @@ def _build_trial(
 ) -> ArmTrial:
     base = build_arm_experiment("rods", {}, {})
     settings = []
-    for joint, one in zip(split_joints(base), joints, strict=True):
-        ratios = {name: ratio * getattr(joint.nominal, name) for name, ratio in one.plant}
+    for joint, scenario in zip(split_joints(base), joints, strict=True):
+        ratios = {name: ratio * getattr(joint.nominal, name) for name, ratio in scenario.plant}
         settings.append(
             joint.changed(
-                position=one.position,
-                stiffness=one.stiffness,
-                effects=one.effects,
-                seed=one.seed,
+                position=scenario.position,
+                stiffness=scenario.stiffness,
+                effects=scenario.effects,
+                seed=scenario.seed,
                 actuator=joint.actuator.changed(**ratios),
             )
         )
@@ -141,12 +141,12 @@ def _build_trial(
 
 
 def _draw_links(random: np.random.Generator) -> ArmParameters:
-    given = {}
+    changes = {}
     for link in (1, 2):
         ratio = float(random.uniform(1.0 - LINK_ERROR, 1.0 + LINK_ERROR))
         for name in (f"mass{link}_kg", f"inertia{link}_kg_m2"):
-            given[name] = ratio * getattr(RODS, name)
-    return RODS.changed(**given)
+            changes[name] = ratio * getattr(RODS, name)
+    return RODS.changed(**changes)
 
 
 def _draw_tip_load(random: np.random.Generator) -> Load:
@@ -169,7 +169,7 @@ def run_arm_trials(
     trials: Sequence[ArmTrial], controller: ArmController, design: Design
 ) -> np.ndarray:
     """Run trials: the `SUMMARY` of both joints of each, (trials, 2)."""
-    return np.stack([one.run(controller, design, DURATION_S, LOAD_S) for one in trials])
+    return np.stack([trial.run(controller, design, DURATION_S, LOAD_S) for trial in trials])
 
 
 def measure_arm_variation(controller: ArmController, design: Design) -> float:
@@ -178,8 +178,10 @@ def measure_arm_variation(controller: ArmController, design: Design) -> float:
     Infinite where a run ends in a fault.
     """
     duration = 2.0 * REST_BEGIN_S
-    found = [one.run(controller, design, duration, REST_BEGIN_S) for one in build_arm_rest()]
-    summaries = np.concatenate(found)
+    summaries_by_trial = [
+        trial.run(controller, design, duration, REST_BEGIN_S) for trial in build_arm_rest()
+    ]
+    summaries = np.concatenate(summaries_by_trial)
     if np.any(summaries["code"]):
         return math.inf
     periods = np.full(len(summaries), design.sampling.period_s)
@@ -195,7 +197,7 @@ def build_arm_problem(controller: ArmController) -> Problem:
         if loud := judge_variation(variation, find_noise_limit()):
             return loud
         summaries = run_arm_trials(trials, controller, design).ravel()
-        sigmas = np.ravel([one.sigmas for one in trials])
+        sigmas = np.ravel([trial.sigmas for trial in trials])
         return judge_summaries(summaries, sigmas, design.sampling.period_s, variation)
 
     return Problem(build_arm_trials, judge)

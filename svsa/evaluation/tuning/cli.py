@@ -101,11 +101,11 @@ def _tune_all(budget: int, trials: int, validation: int, seed: int, output: Path
     from svsa.evaluation.tuning.tuner import tune as search
 
     folder = output or FOLDER
-    wanted = budget, trials, validation, seed
+    arguments = budget, trials, validation, seed
     done = {
-        one.law
-        for one in list_tuned_laws(folder)
-        if (one.candidates, one.trials, one.validation, one.seed) == wanted
+        tuned.law
+        for tuned in list_tuned_laws(folder)
+        if (tuned.candidates, tuned.trials, tuned.validation, tuned.seed) == arguments
     }
     for law in list_law_names():
         if law in done:
@@ -197,9 +197,11 @@ def _build_cost_table(tuned: "Tuned") -> Table:
         table.add_column(column, justify="right")
     before = tuned.finals[0] if tuned.finals else tuned.start
     for name, candidate in (("before", before), ("tuned", tuned.best)):
-        one = candidate.judgment
-        errors = (one.position_error_deg, one.stiffness_error_percent)
-        reported = ("–" if error is None else f"{error:.3g}" for error in errors)
-        variation = f"{one.torque_variation_nm_per_s:.0f}"
-        table.add_row(name, f"{one.cost:.4f}", f"{one.held} of {one.trials}", *reported, variation)
+        judgment = candidate.judgment
+        errors = (judgment.position_error_deg, judgment.stiffness_error_percent)
+        cells = ("–" if error is None else f"{error:.3g}" for error in errors)
+        variation = f"{judgment.torque_variation_nm_per_s:.0f}"
+        table.add_row(
+            name, f"{judgment.cost:.4f}", f"{judgment.held} of {judgment.trials}", *cells, variation
+        )
     return table

@@ -58,8 +58,8 @@ def describe_tuned(tuned: Tuned) -> dict[str, Any]:
         "held": tuned.space.held,
         "present": describe_candidate(tuned.start),
         "best": describe_candidate(tuned.best),
-        "candidates": [describe_candidate(one) for one in tuned.candidates],
-        "finals": [describe_candidate(one) for one in tuned.finals],
+        "candidates": [describe_candidate(candidate) for candidate in tuned.candidates],
+        "finals": [describe_candidate(candidate) for candidate in tuned.finals],
     }
 
 
@@ -79,7 +79,7 @@ def read_checkpoint(path: Path) -> list[Candidate]:
         return []
     whole, _, _ = path.read_text(encoding="utf-8").rpartition("\n")
     read = [_read_candidate(load_json(line)) for line in whole.splitlines()]
-    return [one for one in read if one.stage != "validation"]
+    return [candidate for candidate in read if candidate.stage != "validation"]
 
 
 def _read_candidate(written: dict[str, Any]) -> Candidate:

@@ -60,7 +60,7 @@ class TrialSet:
 
     def __init__(self, scenarios: Sequence[Scenario]) -> None:
         self.size = len(scenarios)
-        self._runs = RunSet([one.build_configuration(PAPERS_LAW) for one in scenarios])
+        self._runs = RunSet([scenario.build_configuration(PAPERS_LAW) for scenario in scenarios])
         self._sigmas = list_mean_stiffnesses(scenarios)
 
     def judge(self, law: str, design: Design, variation: float) -> Judgment:
@@ -104,7 +104,7 @@ def judge_summaries(
 
 @cache
 def _build_rest_set() -> RunSet:
-    return RunSet([one.build_configuration(PAPERS_LAW) for one in build_rest()])
+    return RunSet([scenario.build_configuration(PAPERS_LAW) for scenario in build_rest()])
 
 
 def measure_variation(law: str, design: Design) -> float:

@@ -78,19 +78,19 @@ class Space(NamedTuple):
 
     def set_design(self, design: Design, values: Sequence[float]) -> Design:
         """Return the design with these values for this law."""
-        given: dict[str, Any] = {}
+        settings: dict[str, Any] = {}
         for axis, value in zip(self.axes, values, strict=True):
             if axis.place is None:
-                given[axis.name] = value
+                settings[axis.name] = value
             else:
-                given[axis.name] = (*given.get(axis.name, ()), value)
+                settings[axis.name] = (*settings.get(axis.name, ()), value)
         if has_own_parameters(self.law):
-            parameters = get_law(self.law).parameters(**(self.held | given))
+            parameters = get_law(self.law).parameters(**(self.held | settings))
             return design.changed(parameters={**design.parameters, self.law: parameters})
-        a, p = given[POSITION_POLE], given[STIFFNESS_POLE]
+        a, p = settings[POSITION_POLE], settings[STIFFNESS_POLE]
         changes: dict[str, Any] = {"gains": Gains.from_poles([-a] * 4, [-p] * 2)}
-        if OBSERVER in given:
-            beta = given[OBSERVER]
+        if OBSERVER in settings:
+            beta = settings[OBSERVER]
             changes["observer"] = ObserverBandwidth(bandwidth_rad_per_s=(beta, beta, beta))
         return design.changed(**changes)
 
@@ -105,12 +105,12 @@ class Space(NamedTuple):
                 for axis in self.axes
             )  # fmt: skip
         gains = design.gains
-        found = {
+        values = {
             POSITION_POLE: gains.position_coefficients[0] ** 0.25,
             STIFFNESS_POLE: gains.stiffness_coefficients[0] ** 0.5,
             OBSERVER: design.observer.bandwidth_rad_per_s[0],
         }
-        return tuple(found[axis.name] for axis in self.axes)
+        return tuple(values[axis.name] for axis in self.axes)
 
 
 def build_space(law: str, held: Mapping[str, Any] | None = None) -> Space:

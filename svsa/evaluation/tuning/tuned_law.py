@@ -63,13 +63,15 @@ def build_tuned_law(tuned: Tuned) -> TunedLaw:
     """Build the file's content from a complete search."""
     before, after = (
         Costs(
-            cost=one.judgment.cost,
-            held=one.judgment.held,
+            cost=candidate.judgment.cost,
+            held=candidate.judgment.held,
             torque_variation_nm_per_s=(
-                variation if (variation := one.judgment.torque_variation_nm_per_s) < 1e9 else None
+                variation
+                if (variation := candidate.judgment.torque_variation_nm_per_s) < 1e9
+                else None
             ),
         )
-        for one in (tuned.finals[0], tuned.best)
+        for candidate in (tuned.finals[0], tuned.best)
     )
     labels = [axis.label for axis in tuned.space.axes]
     return TunedLaw(
@@ -111,4 +113,4 @@ def list_tuned_laws(folder: Path = FOLDER) -> Iterator[TunedLaw]:
 @cache
 def load_tuned_laws() -> dict[str, TunedLaw]:
     """Load the tuned laws of the published ranking, by name."""
-    return {one.law: one for one in list_tuned_laws()}
+    return {tuned_law.law: tuned_law for tuned_law in list_tuned_laws()}

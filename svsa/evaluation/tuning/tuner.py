@@ -88,7 +88,7 @@ class Tuned:
     @property
     def best(self) -> Candidate:
         """Minimum cost on the validation trials, or on the training trials without those."""
-        return min(self.finals or self.candidates, key=lambda one: one.judgment.cost)
+        return min(self.finals or self.candidates, key=lambda candidate: candidate.judgment.cost)
 
     @property
     def design(self) -> Design:
@@ -150,17 +150,17 @@ def tune(
     space, design = build_space(law, held), present or load_prototype()
     if held:
         design = space.set_design(design, space.read_values(design))
-    one = _Search(space, design, budget, trials, list(known), on_candidate, is_cancelled, problem)
+    state = _Search(space, design, budget, trials, list(known), on_candidate, is_cancelled, problem)
     finals: list[Candidate] = []
     try:
-        one.run(seed)
-        finals = one.validate(seed, validation)
+        state.run(seed)
+        finals = state.validate(seed, validation)
     except _EndedError:
         pass
     except KeyboardInterrupt:
-        if not one.candidates:
+        if not state.candidates:
             raise
-    tried = tuple(one.candidates)
+    tried = tuple(state.candidates)
     return Tuned(
         space, budget, trials, validation, seed, design, tried, tuple(finals), bool(finals)
     )
@@ -206,12 +206,14 @@ class _Search:
     def validate(self, seed: int, count: int) -> list[Candidate]:
         """Evaluate the current parameters and the best candidates on the validation trials."""
         trials = self._problem.build("validation", seed, count)
-        best = sorted(self.candidates[1:], key=lambda one: one.judgment.cost)
-        chosen = list({one.values: one for one in (self.candidates[0], *best)}.values())
+        best = sorted(self.candidates[1:], key=lambda candidate: candidate.judgment.cost)
+        chosen = list(
+            {candidate.values: candidate for candidate in (self.candidates[0], *best)}.values()
+        )
         finals = []
-        for one in chosen[: FINALISTS + 1]:
+        for candidate in chosen[: FINALISTS + 1]:
             self._end_if_cancelled()
-            finals.append(self._judge(trials, one.number, "validation", one.values))
+            finals.append(self._judge(trials, candidate.number, "validation", candidate.values))
             self._on_candidate(finals[-1])
         return finals
 
@@ -225,8 +227,8 @@ class _Search:
         with ThreadPoolExecutor(WORKERS) as pool:
             first = len(self.candidates)
             jobs = [
-                pool.submit(self._judge, trials, first + n, stage, one)
-                for n, one in enumerate(values)
+                pool.submit(self._judge, trials, first + n, stage, values_tried)
+                for n, values_tried in enumerate(values)
             ]
             try:
                 for job in jobs:
