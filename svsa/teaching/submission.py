@@ -54,9 +54,9 @@ class Submission(Checked):
     @property
     def digest(self) -> str:
         """SHA-256 of the complete submission, in hexadecimal."""
-        reported = self.model_dump_json(exclude={"law_file"}).encode()
+        content = self.model_dump_json(exclude={"law_file"}).encode()
         law = b"" if self.law is None else hashlib.sha256(self.law).digest()
-        return hashlib.sha256(hashlib.sha256(reported).digest() + law).hexdigest()
+        return hashlib.sha256(hashlib.sha256(content).digest() + law).hexdigest()
 
     def write(self, path: Path) -> None:
         """Write the submission as JSON, and its law next to it, for `read_submission`."""
@@ -86,12 +86,12 @@ def read_submission(path: Path | str) -> Submission:
         bound = f"a readable JSON file ({error})"
         raise ParameterError(Violation("submit", path, "", bound)) from None
     try:
-        found = _parse(text)
-        if found.law is not None:
+        submission = _parse(text)
+        if submission.law is not None:
             bound = "omitted: law_file names its file"
             raise ParameterError(Violation("law", None, "", bound))
-        file = found.law_file
-        return found.changed(law=None if file is None else _read_law_in(path.parent, file))
+        file = submission.law_file
+        return submission.changed(law=None if file is None else _read_law_in(path.parent, file))
     except ParameterError as error:
         raise ParameterError(*error.violations, file=str(path)) from None
 

@@ -21,9 +21,15 @@ def list_command(folder: _Folder = None) -> None:
 
     table = Table("", "exercise", "title", "steps", "points", "min", title_justify="left")
     table.title = "Exercises"
-    for one in read_course(folder or find_course_folder()):
-        reported = one.name, one.title, str(len(one.steps)), f"{one.max_points:g}", str(one.minutes)
-        table.add_row(str(one.number), *reported)
+    for exercise in read_course(folder or find_course_folder()):
+        cells = (
+            exercise.name,
+            exercise.title,
+            str(len(exercise.steps)),
+            f"{exercise.max_points:g}",
+            str(exercise.minutes),
+        )
+        table.add_row(str(exercise.number), *cells)
     Console().print(table)
 
 
@@ -35,6 +41,8 @@ def check_command(
     from svsa.teaching.course.file import read_exercise
 
     for file in files:
-        one = read_exercise(file)
-        reported = f"{len(one.steps)} steps, {one.max_points:g} points"
-        Console().print(f"{file}: {one.title}: {reported}, right.", highlight=False, soft_wrap=True)
+        exercise = read_exercise(file)
+        extent = f"{len(exercise.steps)} steps, {exercise.max_points:g} points"
+        Console().print(
+            f"{file}: {exercise.title}: {extent}, right.", highlight=False, soft_wrap=True
+        )

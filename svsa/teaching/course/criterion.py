@@ -64,7 +64,7 @@ def build_judgement(exercise: str, criteria: Sequence[CriterionResult]) -> Judge
     """Build a `Judgement` with the sums of these criteria."""
     return Judgement(
         exercise=exercise,
-        points=sum(one.points for one in criteria),
-        max_points=sum(one.max_points for one in criteria),
+        points=sum(result.points for result in criteria),
+        max_points=sum(result.max_points for result in criteria),
         criteria=tuple(criteria),
     )

@@ -47,12 +47,18 @@ class Exercise(Checked):
         return self
 
     def _check_prediction(self, number: int, step: Predict) -> None:
-        wanted, _, name = step.judged_by.partition(".")
-        later = [one for one in self.steps[number + 1 :] if isinstance(one, Experiment)]
-        judge = next((one for one in later if one.name == wanted), None)
+        experiment_name, _, name = step.judged_by.partition(".")
+        later = [step for step in self.steps[number + 1 :] if isinstance(step, Experiment)]
+        judge = next(
+            (experiment for experiment in later if experiment.name == experiment_name), None
+        )
         measure = judge.find_measure(name) if judge is not None else None
         if measure is None:
-            known = [f"{one.name}.{two.name}" for one in later for two in one.measures]
+            known = [
+                f"{experiment.name}.{two.name}"
+                for experiment in later
+                for two in experiment.measures
+            ]
             bound = f"one of {', '.join(known) or 'those of an experiment after it'}"
             raise ParameterError(Violation(f"steps[{number}].judged_by", step.judged_by, "", bound))
         if measure.shown_unit != step.unit:
@@ -73,8 +79,8 @@ class Exercise(Checked):
 
     def find_judge(self, step: Predict) -> tuple[Experiment, Measure]:
         """Find the experiment and the measure that judge a prediction."""
-        wanted, _, name = step.judged_by.partition(".")
-        judge = self.find_step(wanted)
+        experiment_name, _, name = step.judged_by.partition(".")
+        judge = self.find_step(experiment_name)
         assert isinstance(judge, Experiment)  # noqa: S101
         measure = judge.find_measure(name)
         assert measure is not None  # noqa: S101

@@ -38,12 +38,12 @@ def list_exercise_files(folder: Path | None = None) -> list[Path]:
     Raises:
         ParameterError: If the folder does not exist.
     """
-    found = {path.stem: path for path in _BUILT_IN.glob("*.md")}
+    files = {path.stem: path for path in _BUILT_IN.glob("*.md")}
     if folder is not None:
         if not folder.is_dir():
             raise ParameterError(Violation("course", folder, "", "a folder with exercises (.md)"))
-        found |= {path.stem: path for path in folder.glob("*.md")}
-    return list(found.values())
+        files |= {path.stem: path for path in folder.glob("*.md")}
+    return list(files.values())
 
 
 def read_course(folder: Path | None = None) -> list[Exercise]:
@@ -53,7 +53,7 @@ def read_course(folder: Path | None = None) -> list[Exercise]:
         ParameterError: If a file is invalid.
     """
     exercises = [read_exercise(path) for path in list_exercise_files(folder)]
-    return sorted(exercises, key=lambda one: (one.number, one.name))
+    return sorted(exercises, key=lambda exercise: (exercise.number, exercise.name))
 
 
 def read_exercise(path: Path | str) -> Exercise:

@@ -53,7 +53,7 @@ def judge_submission(
         except SvsaError as error:
             runs[name] = f"Run {run} cannot be opened: {error}"
     steps = (judge_step(exercise, step, submission.answers, runs) for step in exercise.steps)
-    criteria = [one for step in steps for one in step]
+    criteria = [result for step in steps for result in step]
     if judge_law is not None and exercise.takes_law:
         criteria += judge_law(submission.law)
     return build_judgement(exercise.name, criteria)
@@ -64,12 +64,12 @@ def judge_run(
 ) -> list[CriterionResult]:
     """Judge the criteria of an experiment, and of the predictions that its run decides."""
     judged = [
-        one
-        for one in exercise.steps
-        if one is step or (isinstance(one, Predict) and exercise.find_judge(one)[0] is step)
+        other
+        for other in exercise.steps
+        if other is step or (isinstance(other, Predict) and exercise.find_judge(other)[0] is step)
     ]
-    found = (judge_step(exercise, one, answers, {step.name: run}) for one in judged)
-    return [one for results in found for one in results]
+    results_by_step = (judge_step(exercise, other, answers, {step.name: run}) for other in judged)
+    return [result for results in results_by_step for result in results]
 
 
 def judge_step(
@@ -107,19 +107,19 @@ def check_answer(step: Step, answer: Answer) -> None:
 
 def read_measures(step: Experiment, result: Result) -> dict[str, Measured]:
     """Read every measure of a step in a run, ratios included."""
-    found: dict[str, Measured] = {}
+    values: dict[str, Measured] = {}
     for measure in step.measures:
         own = measure.read(result)
-        found[measure.name] = own if measure.per is None else _divide(own, found[measure.per])
-    return found
+        values[measure.name] = own if measure.per is None else _divide(own, values[measure.per])
+    return values
 
 
-def _divide(one: Measured, other: Measured) -> Measured:
-    if one.value is None or other.value is None:
-        return one if one.value is None else other
+def _divide(dividend: Measured, other: Measured) -> Measured:
+    if dividend.value is None or other.value is None:
+        return dividend if dividend.value is None else other
     if other.value == 0.0:
-        return Measured(None, one.time_s, "what it is divided by is 0")
-    return one._replace(value=one.value / other.value)
+        return Measured(None, dividend.time_s, "what it is divided by is 0")
+    return dividend._replace(value=dividend.value / other.value)
 
 
 def _judge_prediction(
@@ -148,8 +148,8 @@ def _judge_prediction(
         points = step.points
     elif off <= step.half_within:
         points = step.points / 2.0
-    reported = f"You predicted {_write(float(answer), step.unit)}; the run gave"
-    feedback = f"{reported} {_write(seen.value, step.unit)}. {step.feedback}".strip()
+    comparison = f"You predicted {_write(float(answer), step.unit)}; the run gave"
+    feedback = f"{comparison} {_write(seen.value, step.unit)}. {step.feedback}".strip()
     return none.changed(points=points, feedback=feedback, time_s=seen.time_s)
 
 
@@ -172,14 +172,16 @@ def _judge_experiment(step: Experiment, run: Opened | None) -> list[CriterionRes
     if problem is not None or not isinstance(run, Result):
         feedback, time_s = problem or ("", None)
         return [
-            _build_result(step.name, one.title, one.points, feedback=feedback, time_s=time_s)
-            for one in criteria
+            _build_result(
+                step.name, criterion.title, criterion.points, feedback=feedback, time_s=time_s
+            )
+            for criterion in criteria
         ]
     seen = read_measures(step, run)
     measures = {measure.name: measure for measure in step.measures}
     return [
-        _judge_criterion(step.name, one, measures[one.measure], seen[one.measure])
-        for one in criteria
+        _judge_criterion(step.name, criterion, measures[criterion.measure], seen[criterion.measure])
+        for criterion in criteria
     ]
 
 
@@ -192,8 +194,8 @@ def _find_problem(step: Experiment, run: Opened | None) -> tuple[str, float | No
     difference = step.find_difference(run)
     if difference is None:
         return None
-    reported = f"This is not the run that is asked for: {difference.message}. Set it up again."
-    return reported, difference.time_s
+    message = f"This is not the run that is asked for: {difference.message}. Set it up again."
+    return message, difference.time_s
 
 
 def _judge_criterion(
@@ -205,12 +207,12 @@ def _judge_criterion(
         return none.changed(feedback=f"{measure.label}: {seen.problem.rstrip('.')}.")
     is_low = c.low is not None and seen.value < c.low
     is_high = c.high is not None and seen.value > c.high
-    reported = f"{measure.label}: {_write(seen.value, measure.shown_unit)}"
+    text = f"{measure.label}: {_write(seen.value, measure.shown_unit)}"
     asked = _format_range(c, measure.shown_unit)
     if not is_low and not is_high:
-        return none.changed(points=c.points, feedback=f"{reported}. {c.right}".strip())
+        return none.changed(points=c.points, feedback=f"{text}. {c.right}".strip())
     why = c.too_low if is_low else c.too_high
-    return none.changed(feedback=f"{reported}, asked: {asked}. {why}".strip())
+    return none.changed(feedback=f"{text}, asked: {asked}. {why}".strip())
 
 
 def _format_range(criterion: Criterion, unit: str) -> str:
@@ -253,5 +255,5 @@ def _build_result(
 
 
 def _write(value: float, unit: str) -> str:
-    reported = f"{value:.3g}" if abs(value) < 1000 else f"{value:.0f}"
-    return f"{reported}{'' if unit == '°' else ' '}{unit}".rstrip()
+    text = f"{value:.3g}" if abs(value) < 1000 else f"{value:.0f}"
+    return f"{text}{'' if unit == '°' else ' '}{unit}".rstrip()

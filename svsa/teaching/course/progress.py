@@ -80,11 +80,11 @@ class ExerciseProgress(Checked):
     def answers(self) -> dict[str, Answer]:
         """The predictions and selected options, by step."""
         kept = self.steps.items()
-        return {name: one.answer for name, one in kept if one.answer is not None}
+        return {name: state.answer for name, state in kept if state.answer is not None}
 
     def build_submission(self, exercise: str, student: str) -> Submission:
         """Build the submission of an exercise."""
-        runs = {name: one.run for name, one in self.steps.items() if one.run is not None}
+        runs = {name: state.run for name, state in self.steps.items() if state.run is not None}
         law = self.law and self.law.text.encode()
         return Submission(
             student=student, exercise=exercise, answers=self.answers, runs=runs, law=law
@@ -104,11 +104,11 @@ class PersonProgress(Checked):
 def visit_step(exercise: Exercise, progress: ExerciseProgress, step: str) -> ExerciseProgress:
     """Record a visit to a step; visiting a reading step completes it."""
     exercise.find_step(step)
-    for one in exercise.steps:
-        if one.name == step:
+    for other in exercise.steps:
+        if other.name == step:
             break
-        if one.kind == "read":
-            progress = progress.with_step(one.name, done=True)
+        if other.kind == "read":
+            progress = progress.with_step(other.name, done=True)
     return progress.changed(at=step)
 
 
@@ -121,11 +121,11 @@ def keep_answer(
         ParameterError: If the answer is invalid.
         StateError: If the run that it is compared with has begun, or the exercise is submitted.
     """
-    found = exercise.find_step(step)
-    check_answer(found, answer)
+    target = exercise.find_step(step)
+    check_answer(target, answer)
     _check_open(progress)
-    if isinstance(found, Predict):
-        judge, _ = exercise.find_judge(found)
+    if isinstance(target, Predict):
+        judge, _ = exercise.find_judge(target)
         if progress.get(judge.name).begun:
             raise StateError(f"The run of {step!r} has been set up: the prediction is final.")
     elif progress.get(step).answer is not None:
@@ -139,14 +139,14 @@ def begin_step(exercise: Exercise, progress: ExerciseProgress, step: str) -> Exe
     Raises:
         StateError: If a prediction is missing.
     """
-    found = exercise.find_step(step)
-    if not isinstance(found, Experiment):
+    target = exercise.find_step(step)
+    if not isinstance(target, Experiment):
         raise StateError(f"Step {step!r} is no experiment: there is nothing to set up.")
-    for one in exercise.steps:
-        if not isinstance(one, Predict) or progress.get(one.name).answer is not None:
+    for other in exercise.steps:
+        if not isinstance(other, Predict) or progress.get(other.name).answer is not None:
             continue
-        if exercise.find_judge(one)[0].name == step:
-            raise StateError(f"Predict first: {one.asks} (step {one.name!r}) has no answer.")
+        if exercise.find_judge(other)[0].name == step:
+            raise StateError(f"Predict first: {other.asks} (step {other.name!r}) has no answer.")
     return progress.with_step(step, begun=True)
 
 
@@ -163,13 +163,13 @@ def keep_run(
     """
     _check_open(progress)
     before = progress.get(step)
-    own = tuple(one for one in results if one.step == step)
+    own = tuple(result for result in results if result.step == step)
     if before.run is not None and _sum(own) < _sum(before.results):
         return progress
     progress = progress.with_step(step, run=run, results=own, done=True)
-    for name in dict.fromkeys(one.step for one in results if one.step != step):
-        reported = tuple(one for one in results if one.step == name)
-        progress = progress.with_step(name, results=reported)
+    for name in dict.fromkeys(result.step for result in results if result.step != step):
+        of_step = tuple(result for result in results if result.step == name)
+        progress = progress.with_step(name, results=of_step)
     return progress
 
 
@@ -203,8 +203,8 @@ def find_done(exercise: Exercise, progress: ExerciseProgress) -> list[str]:
 def find_missing(exercise: Exercise, progress: ExerciseProgress) -> list[str]:
     """Return the names of the incomplete steps; the last one is incomplete without its law."""
     done = find_done(exercise, progress)
-    wanted = (Predict, Experiment, Explain)
-    missing = [s.name for s in exercise.steps if isinstance(s, wanted) and s.name not in done]
+    kinds = (Predict, Experiment, Explain)
+    missing = [s.name for s in exercise.steps if isinstance(s, kinds) and s.name not in done]
     if exercise.takes_law and progress.law is None:
         missing.append(exercise.steps[-1].name)
     return missing
@@ -216,7 +216,7 @@ def _check_open(progress: ExerciseProgress) -> None:
 
 
 def _sum(results: Sequence[CriterionResult]) -> float:
-    return sum(one.points for one in results)
+    return sum(result.points for result in results)
 
 
 def _translate(written: Any) -> Any:
@@ -227,10 +227,10 @@ def _translate(written: Any) -> Any:
     for step in present.get("steps", {}).values():
         # Earlier versions stored a list of values, without names of criteria.
         step["results"] = [
-            dict(zip(CriterionResult.model_fields, one, strict=True))
-            if isinstance(one, list)
-            else one
-            for one in step.get("results", ())
+            dict(zip(CriterionResult.model_fields, result, strict=True))
+            if isinstance(result, list)
+            else result
+            for result in step.get("results", ())
         ]
     return present
 
@@ -257,21 +257,21 @@ class ProgressStore:
             OSError: If the file exists and cannot be read.
         """
         path = self._find(person)
-        for one in (path, _find_previous(path)):
+        for file in (path, _find_previous(path)):
             try:
-                content = one.read_bytes()
+                content = file.read_bytes()
             except FileNotFoundError:
                 continue
             except OSError as error:
                 if error.errno not in (errno.EISDIR, errno.ELOOP):
                     raise
-                _report_damage(one, error)
+                _report_damage(file, error)
                 continue
             try:
                 exercises = load_json(content).get("exercises", {}).items()
                 return PersonProgress(exercises={name: _translate(at) for name, at in exercises})
             except (ValueError, AttributeError, TypeError) as error:
-                _report_damage(one, error)
+                _report_damage(file, error)
         return PersonProgress()
 
     def write(self, person: str, progress: PersonProgress) -> None:

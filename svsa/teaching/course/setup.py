@@ -102,17 +102,19 @@ class Setup(Checked):
         is_bench = result.plant != "simulated"
         if is_bench and self.bench is None:
             return Difference("it was recorded on a bench, and this step is simulated")
-        wanted = self.bench_configuration if is_bench else self.configuration
+        expected = self.bench_configuration if is_bench else self.configuration
         begun = _give_first(result.configuration, result.commands)
-        if (wanted.arm is None) != (begun.arm is None):
+        if (expected.arm is None) != (begun.arm is None):
             kind = "a single joint" if begun.arm is None else "an arm"
             return Difference(f"it is a run of {kind}")
         fields = [
             field for field in (SET_ON_BENCH if is_bench else _COMPARED) if field not in self.free
         ]
-        for field, asked, had in _list_compared(wanted, begun, fields):
+        for field, asked, had in _list_compared(expected, begun, fields):
             if asked != had:
-                return Difference(f"{field} was not as the step sets it ({_tell(asked, had)})", 0.0)
+                return Difference(
+                    f"{field} was not as the step sets it ({_describe_difference(asked, had)})", 0.0
+                )
         return self._find_change(result)
 
     def _find_change(self, result: Result) -> Difference | None:
@@ -121,8 +123,8 @@ class Setup(Checked):
             time_s = command.tick * result.configuration.sampling.period_s
             if isinstance(command, Stop):
                 if time_s < self.duration_s:
-                    reported = f"the bench was stopped at {time_s:.3g} s, before its end"
-                    return Difference(reported, time_s)
+                    message = f"the bench was stopped at {time_s:.3g} s, before its end"
+                    return Difference(message, time_s)
             elif command.tick > 0:
                 field = _FIELDS.get(command.kind, command.kind)
                 return Difference(f"{field} was changed at {time_s:.3g} s, during the run", time_s)
@@ -130,15 +132,15 @@ class Setup(Checked):
 
 
 def _list_compared(
-    wanted: Configuration, begun: Configuration, fields: Sequence[str]
+    expected: Configuration, begun: Configuration, fields: Sequence[str]
 ) -> Iterator[tuple[str, Any, Any]]:
     """Yield name, wanted and actual value of the fields of each joint, and of those of an arm."""
-    for number, (asked, had) in enumerate(zip(wanted.joints, begun.joints, strict=True), start=1):
+    for number, (asked, had) in enumerate(zip(expected.joints, begun.joints, strict=True), start=1):
         for field in fields:
             name = field if number == 1 else f"{field} of joint 2"
             yield name, getattr(asked, field), getattr(had, field)
-    for field in _COMPARED_OF_ARM if wanted.arm is not None else ():
-        yield f"arm.{field}", getattr(wanted.arm, field), getattr(begun.arm, field)
+    for field in _COMPARED_OF_ARM if expected.arm is not None else ():
+        yield f"arm.{field}", getattr(expected.arm, field), getattr(begun.arm, field)
 
 
 def _give_first(configuration: Configuration, commands: Sequence[Command]) -> Configuration:
@@ -164,7 +166,7 @@ def _remove_load(configuration: Configuration, index: int) -> Configuration:
     return configuration.changed(loads=(*loads[:index], *loads[index + 1 :]))
 
 
-def _tell(asked: Any, had: Any) -> str:
+def _describe_difference(asked: Any, had: Any) -> str:
     """Describe the first field that differs, if the values have fields."""
     if isinstance(asked, Checked) and isinstance(had, Checked):
         if type(asked) is not type(had):

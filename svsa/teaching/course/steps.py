@@ -85,8 +85,10 @@ class Experiment(_Step, Setup):
                 raise ParameterError(Violation(f"{where}.lane", measure.lane, "", bound))
             if measure.tip_direction_rad is not None and not self._is_tip(measure.lane):
                 bound = "omitted, unless the run is of an arm and `lane` is joint 1"
-                given = measure.tip_direction_rad
-                raise ParameterError(Violation(f"{where}.tip_direction_rad", given, "rad", bound))
+                direction_rad = measure.tip_direction_rad
+                raise ParameterError(
+                    Violation(f"{where}.tip_direction_rad", direction_rad, "rad", bound)
+                )
             if measure.to_s is not None and measure.to_s > self.duration_s:
                 bound = f"at most duration_s, {self.duration_s:g} s"
                 raise ParameterError(Violation(f"{where}.to_s", measure.to_s, "s", bound))
@@ -120,9 +122,11 @@ class Experiment(_Step, Setup):
         if criteria is None:
             return
         self._check_criteria("bench.criteria", criteria)
-        points, wanted = (sum(one.points for one in each) for each in (criteria, self.criteria))
-        if points != wanted:
-            bound = f"with {wanted:g} points in all, as in the simulation"
+        points, simulated_points = (
+            sum(criterion.points for criterion in each) for each in (criteria, self.criteria)
+        )
+        if points != simulated_points:
+            bound = f"with {simulated_points:g} points in all, as in the simulation"
             raise ParameterError(Violation("bench.criteria", points, "", bound))
 
     def list_criteria(self, is_bench: bool) -> tuple[Criterion, ...]:
@@ -132,7 +136,7 @@ class Experiment(_Step, Setup):
 
     def find_measure(self, name: str) -> Measure | None:
         """Return the measure of this name."""
-        return next((one for one in self.measures if one.name == name), None)
+        return next((measure for measure in self.measures if measure.name == name), None)
 
 
 class Option(Checked):

@@ -45,8 +45,10 @@ def list_graded(store: ProgressStore, person: str | None = None) -> list[GradedS
     """List all submissions, or those of one person, sorted by student and exercise."""
     book = open_book(store)
     files = store.list_submissions() if person is None else store.list_submissions(person)
-    found = [_describe(path, book) for path in files]
-    return sorted(found, key=lambda one: (one.student.casefold(), one.person, one.exercise))
+    submissions = [_describe(path, book) for path in files]
+    return sorted(
+        submissions, key=lambda graded: (graded.student.casefold(), graded.person, graded.exercise)
+    )
 
 
 def grade_class(
@@ -84,13 +86,13 @@ def _describe(path: Path, book: Book) -> GradedSubmission:
     try:
         submission = read_submission(path)
         digest = submission.digest
-        given = book.find(digest)
+        grade = book.find(digest)
     except ParameterError as error:
         return GradedSubmission(person, exercise, person, None, str(error))
-    given = given and given.changed(person=person)
-    return GradedSubmission(person, exercise, submission.student, given, book.find_refusal(digest))
+    grade = grade and grade.changed(person=person)
+    return GradedSubmission(person, exercise, submission.student, grade, book.find_refusal(digest))
 
 
 def list_grades(submitted: Sequence[GradedSubmission]) -> Iterator[Grade]:
     """Yield the grades that were given."""
-    return (one.grade for one in submitted if one.grade is not None)
+    return (graded.grade for graded in submitted if graded.grade is not None)

@@ -56,17 +56,21 @@ def grade_command(
     if (book is None) != practice:
         bound = "given, or --practice instead" if book is None else "omitted with --practice"
         raise ParameterError(Violation("--class", book and str(book), "", bound))
-    exercises = {one.name: one for one in read_course(course or find_course_folder())}
+    exercises = {
+        exercise.name: exercise for exercise in read_course(course or find_course_folder())
+    }
     kept = None if book is None else Book(book)
-    found, refused = _grade_all(files, exercises, runs, kept)
-    reported = found if kept is None else kept.list()
+    grades, refused = _grade_all(files, exercises, runs, kept)
+    listed = grades if kept is None else kept.list()
     for path, write in ((csv, write_csv), (page, write_page)):
         if path is not None:
-            path.write_text(write(reported), encoding="utf-8")
-    Console().print(_build_table(found))
-    for one in found:
-        for failure in filter(None, map(_describe_failure, one.criteria)):
-            _messages.print(escape(f"{one.student}, {one.exercise}: {failure}"), highlight=False)
+            path.write_text(write(listed), encoding="utf-8")
+    Console().print(_build_table(grades))
+    for grade in grades:
+        for failure in filter(None, map(_describe_failure, grade.criteria)):
+            _messages.print(
+                escape(f"{grade.student}, {grade.exercise}: {failure}"), highlight=False
+            )
     for line in refused:
         _messages.print(f"[bold red]Refused:[/] {escape(line)}", highlight=False)
     if refused:
@@ -78,32 +82,35 @@ def _grade_all(
 ) -> tuple[list[Grade], list[str]]:
     """Return the grades in the order of the files, and the reasons for missing grades."""
     workers = min(len(files), os.cpu_count() or 1)
-    found, refused = dict[Path, Grade](), list[str]()
+    grades, refused = dict[Path, Grade](), list[str]()
     with show_progress(_messages, "Grading", len(files), "") as bar:
 
         def report(share: float) -> None:
-            bar(len(found) + len(refused) + share)
+            bar(len(grades) + len(refused) + share)
 
-        for path, given in grade_files(files, exercises, runs, book, workers, report=report):
-            if isinstance(given, Grade):
-                found[path] = given
+        for path, outcome in grade_files(files, exercises, runs, book, workers, report=report):
+            if isinstance(outcome, Grade):
+                grades[path] = outcome
             else:
-                refused.append(f"{path.name}: {given}")
+                refused.append(f"{path.name}: {outcome}")
             report(0.0)
-    return [found[path] for path in files if path in found], sorted(refused)
+    return [grades[path] for path in files if path in grades], sorted(refused)
 
 
-def _describe_failure(one: CriterionResult) -> str:
+def _describe_failure(criterion: CriterionResult) -> str:
     """Reason why a law failed, with its output; empty for any other criterion."""
-    return f"{one.name}: {one.feedback}" if PRINTED in one.feedback else ""
+    return f"{criterion.name}: {criterion.feedback}" if PRINTED in criterion.feedback else ""
 
 
 def _build_table(grades: Sequence[Grade]) -> Table:
     table = Table("student", "exercise", "points", "of", title="Grades", title_justify="left")
-    for one in grades:
+    for grade in grades:
         table.add_row(
-            escape(one.student), escape(one.exercise), f"{one.points:.2f}", f"{one.max_points:g}"
+            escape(grade.student),
+            escape(grade.exercise),
+            f"{grade.points:.2f}",
+            f"{grade.max_points:g}",
         )
-    if any(not one.is_isolated for one in grades):
+    if any(not grade.is_isolated for grade in grades):
         table.caption = "Practice: the law was not isolated; no grade of a class."
     return table

@@ -56,14 +56,14 @@ def verify_run(catalogue: Catalogue, run_id: str) -> VerifiedRun:
     record = catalogue.open(run_id)
     if record.header.plant != "simulated":
         return VerifiedRun(run_id=run_id, description=verify_bench_record(record).description)
-    found = compare_with_simulation(record)
-    if not found.identical:
-        tick, channel = found.first_difference or (found.ticks, "")
+    comparison = compare_with_simulation(record)
+    if not comparison.identical:
+        tick, channel = comparison.first_difference or (comparison.ticks, "")
         raise RecordError(
             f"Run {run_id} does not replay: simulated again, {channel} differs at tick {tick}."
         )
-    description = f"Simulated again: its {found.ticks} samples are the same, bit for bit."
-    description += describe_not_compared(found.not_compared)
+    description = f"Simulated again: its {comparison.ticks} samples are the same, bit for bit."
+    description += describe_not_compared(comparison.not_compared)
     return VerifiedRun(run_id=run_id, description=description)
 
 

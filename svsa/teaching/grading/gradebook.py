@@ -44,4 +44,6 @@ class Book(ClassFolder[Grade]):
 
     def list(self) -> list[Grade]:
         """Return all grades, sorted by exercise and student."""
-        return sorted(self.read_all(), key=lambda one: (one.exercise, one.student, one.submission))
+        return sorted(
+            self.read_all(), key=lambda grade: (grade.exercise, grade.student, grade.submission)
+        )

@@ -93,22 +93,22 @@ def run_trials(
     """
     if place is confine:
         check_isolation()
-    found, end_s = Trials(np.empty(0, dtype=bool), np.empty(0)), monotonic() + LONGEST_S
-    while len(found.held) < MOST_TRIALS:
-        first = len(found.held)
+    trials, end_s = Trials(np.empty(0, dtype=bool), np.empty(0)), monotonic() + LONGEST_S
+    while len(trials.held) < MOST_TRIALS:
+        first = len(trials.held)
         scenarios = [build_test_trial("A", seed, first + number) for number in range(BLOCK)]
         block, is_over = _run_block(source, scenarios, place, end_s)
-        found = Trials(
-            np.concatenate([found.held, block.held]),
-            np.concatenate([found.rms_deg, block.rms_deg]),
-            found.problem or block.problem,
-            found.output or block.output,
+        trials = Trials(
+            np.concatenate([trials.held, block.held]),
+            np.concatenate([trials.rms_deg, block.rms_deg]),
+            trials.problem or block.problem,
+            trials.output or block.output,
         )
-        width = found.estimate_range()
+        width = trials.estimate_range()
         if is_over or width <= POINTS_RANGE:
             break
         report(min(1.0, (POINTS_RANGE / width) ** 2))
-    return found
+    return trials
 
 
 def _run_block(
@@ -118,7 +118,7 @@ def _run_block(
 
     Trials that did not fit into the time are left out.
     """
-    configurations = [one.build_configuration(PAPERS_LAW) for one in scenarios]
+    configurations = [scenario.build_configuration(PAPERS_LAW) for scenario in scenarios]
     held, rms_deg = np.zeros(len(scenarios), dtype=bool), np.full(len(scenarios), np.nan)
     problems, done, output = dict[int, str](), list[int](), ""
     for numbers in _list_groups(configurations):
@@ -131,7 +131,7 @@ def _run_block(
         except LawFaultError as error:
             return Trials(held, rms_deg, str(error), error.output), True
         done += numbers
-        periods = np.array([one.sampling.period_s for one in group])
+        periods = np.array([configuration.sampling.period_s for configuration in group])
         measured = compute_metrics(summaries, periods, scenarios[0].measured_s)
         has_ended = summaries["code"] != INSIDE
         output = output or printed
@@ -158,7 +158,10 @@ def _run_group(
     """
     count = len(group)
     bounds = BOUNDS._replace(cpu_s=count * BOUNDS.cpu_s, whole_s=count * BOUNDS.whole_s)
-    models = [build_actuator(one.nominal, compute_start_ratio(one)) for one in group]
+    models = [
+        build_actuator(configuration.nominal, compute_start_ratio(configuration))
+        for configuration in group
+    ]
     with GroupProcess(source, models, bounds, place) as law:
         summaries = run_group(group, law, scenario.duration_s, scenario.measured_s)
         has_ended = (summaries["code"] != INSIDE).any()
@@ -192,12 +195,12 @@ def judge_law(trials: Trials | None) -> list[CriterionResult]:
     ended += describe_output(trials.output)
     rms = f"median rms {np.nanmedian(trials.rms_deg):.3g}°" if whole else "no run reached its end"
     chance = f"On other trials 95 % of grades are within ±{trials.estimate_range() / 2:.2f} points."
-    reported = (
+    shares = (
         (whole, f"{round(whole * count)} of {count} did. {chance}{ended}"),
         (held, f"{round(held * count)} of {count} did."),
         (accuracy, f"{rms}; the mean of 1 − tanh(rms / 1°) is {accuracy:.2f}."),
     )
-    return [_build_result(name, *given) for name, given in zip(POINTS, reported, strict=True)]
+    return [_build_result(name, *scored) for name, scored in zip(POINTS, shares, strict=True)]
 
 
 def _build_result(name: str, share: float, feedback: str) -> CriterionResult:

@@ -56,24 +56,24 @@ def run_law(
         check_isolation()
     configuration = scenario.build_configuration(PAPERS_LAW)
     model = build_actuator(configuration.nominal, compute_start_ratio(configuration))
-    reported: list[tuple[float, float]] = []
+    torques: list[tuple[float, float]] = []
     try:
         with LawProcess(source, model, bounds, place) as law:
-            begin, reported = perf_counter(), law.torques
+            begin, torques = perf_counter(), law.torques
             result = simulate(configuration, law, duration_s=scenario.duration_s)
             took_s, costs = perf_counter() - begin, sorted(law.cost_s)
             output = law.read_output() if result.fault else ""
     except LawFaultError as error:
         return LawRun(
-            scenario.name, False, None, str(error), error.output, torques=_pack_torques(reported)
+            scenario.name, False, None, str(error), error.output, torques=_pack_torques(torques)
         )
     run = describe_run(scenario, result, took_s)
     cost_us = 1e6 * costs[len(costs) // 2] if costs else None
-    return run._replace(cost_us=cost_us, output=output, torques=_pack_torques(reported))
+    return run._replace(cost_us=cost_us, output=output, torques=_pack_torques(torques))
 
 
-def _pack_torques(reported: list[tuple[float, float]]) -> bytes:
-    return np.array(reported, dtype=np.float64).tobytes()
+def _pack_torques(torques: list[tuple[float, float]]) -> bytes:
+    return np.array(torques, dtype=np.float64).tobytes()
 
 
 def run_installed(law: str, scenario: Scenario) -> LawRun:

@@ -22,8 +22,8 @@ def try_law(text: str, place: Place = confine) -> SavedLaw:
     try:
         run = run_law(text.encode(), scenario, BOUNDS, place)
     except NotIsolatedError as error:
-        reported = f"{error} At home svsa grade --practice tries it."
-        return SavedLaw(text=text, verdict="untried", feedback=reported)
+        message = f"{error} At home svsa grade --practice tries it."
+        return SavedLaw(text=text, verdict="untried", feedback=message)
     return judge_trial(text, run)
 
 
@@ -34,11 +34,11 @@ def judge_trial(text: str, run: LawRun) -> SavedLaw:
         return SavedLaw(text=text, verdict="failed", feedback=run.problem, output=output)
     cost = f"An answer takes {run.cost_us:.0f} µs."
     if run.rms_deg is None:
-        reported = f"{run.problem} {cost}"
-        return SavedLaw(text=text, verdict="ended", feedback=reported, output=output)
+        message = f"{run.problem} {cost}"
+        return SavedLaw(text=text, verdict="ended", feedback=message, output=output)
     rms = f"{run.rms_deg:.3g}° rms from the load on"
     if run.held:
-        reported = f"The run held: {HELD}; {rms}."
-        return SavedLaw(text=text, verdict="held", feedback=f"{reported} {cost}")
-    reported = f"The run reached its end with {rms}, but did not hold. Held: {HELD}."
-    return SavedLaw(text=text, verdict="ran", feedback=f"{reported} {cost}")
+        message = f"The run held: {HELD}; {rms}."
+        return SavedLaw(text=text, verdict="held", feedback=f"{message} {cost}")
+    message = f"The run reached its end with {rms}, but did not hold. Held: {HELD}."
+    return SavedLaw(text=text, verdict="ran", feedback=f"{message} {cost}")

@@ -47,16 +47,16 @@ def grade_file(
         if name not in exercises:
             bound = f"one of {', '.join(exercises)}"
             raise ParameterError(Violation("exercise", name, "", bound), file=str(path))
-        given = grade(submission, exercises[name], runs, book.secret if book else None, report)
-        given = given.changed(person=path.stem)
+        result = grade(submission, exercises[name], runs, book.secret if book else None, report)
+        result = result.changed(person=path.stem)
     except SvsaError as error:
         if book is not None:
             book.refuse(digest, str(error))
         raise
     if book is not None:
-        book.keep(given)
+        book.keep(result)
         book.refuse(digest, "")
-    return given
+    return result
 
 
 def grade_files(

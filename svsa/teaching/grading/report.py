@@ -33,7 +33,9 @@ def write_csv(grades: Sequence[Grade]) -> str:
     table = csv.writer(text, lineterminator="\n")
     table.writerow([*HEADINGS, *names])
     for grade in grades:
-        points = {_name(grade, at): f"{one.points:g}" for at, one in enumerate(grade.criteria)}
+        points = {
+            _name(grade, at): f"{criterion.points:g}" for at, criterion in enumerate(grade.criteria)
+        }
         row = (
             *(_guard(word) for word in (grade.student, grade.exercise)),
             f"{grade.points:g}", f"{grade.max_points:g}", grade.submission, grade.seed or "",
@@ -57,8 +59,8 @@ def write_page(grades: Sequence[Grade]) -> str:
 
 
 def _name(grade: Grade, at: int) -> str:
-    one = grade.criteria[at]
-    return f"{grade.exercise} / {one.step} / {one.name}"
+    criterion = grade.criteria[at]
+    return f"{grade.exercise} / {criterion.step} / {criterion.name}"
 
 
 def _guard(word: str) -> str:
@@ -70,37 +72,37 @@ def _guard(word: str) -> str:
 def _write_summary(grades: Sequence[Grade]) -> str:
     lines = []
     for exercise in dict.fromkeys(grade.exercise for grade in grades):
-        shares = [one.points / one.max_points for one in grades if one.exercise == exercise]
+        shares = [grade.points / grade.max_points for grade in grades if grade.exercise == exercise]
         count = "1 submission" if len(shares) == 1 else f"{len(shares)} submissions"
-        reported = f"mean {mean(shares):.0%}, median {median(shares):.0%}"
-        lines.append(f"<li>{escape(exercise)}: {count}, {reported}</li>")
+        statistics = f"mean {mean(shares):.0%}, median {median(shares):.0%}"
+        lines.append(f"<li>{escape(exercise)}: {count}, {statistics}</li>")
     return f"<ul>{''.join(lines)}</ul>"
 
 
 def _write_table(grades: Sequence[Grade]) -> str:
     rows = "".join(
-        f'<tr><td><a href="#grade-{at}">{escape(one.student)}</a>'
-        f" <small>{escape(one.person)}</small></td>"
-        f"<td>{escape(one.exercise)}</td>"
-        f"{_write_points(one.points, one.max_points)}</tr>"
-        for at, one in enumerate(grades)
+        f'<tr><td><a href="#grade-{at}">{escape(grade.student)}</a>'
+        f" <small>{escape(grade.person)}</small></td>"
+        f"<td>{escape(grade.exercise)}</td>"
+        f"{_write_points(grade.points, grade.max_points)}</tr>"
+        for at, grade in enumerate(grades)
     )
     return _write_rows('<th>Student</th><th>Exercise</th><th class="number">Points</th>', rows)
 
 
 def _write_grade(grade: Grade, anchor: str) -> str:
     rows = "".join(
-        f"<tr><td>{escape(one.step)}</td><td>{escape(one.name)}</td>"
-        f"{_write_points(one.points, one.max_points)}"
-        f'<td class="feedback">{escape(one.feedback)}</td></tr>'
-        for one in grade.criteria
+        f"<tr><td>{escape(criterion.step)}</td><td>{escape(criterion.name)}</td>"
+        f"{_write_points(criterion.points, criterion.max_points)}"
+        f'<td class="feedback">{escape(criterion.feedback)}</td></tr>'
+        for criterion in grade.criteria
     )
     seed = f"; trials of seed {grade.seed}" if grade.seed else ""
     walls = "" if grade.is_isolated else "; practice: its law was not isolated"
     head = f"{escape(grade.student)}: {escape(grade.exercise)}"
     runs = "".join(
-        f"<p><small>Run {escape(one.run_id)}. {escape(one.description)}</small></p>"
-        for one in grade.runs
+        f"<p><small>Run {escape(run.run_id)}. {escape(run.description)}</small></p>"
+        for run in grade.runs
     )
     heads = '<th>Step</th><th>Criterion</th><th class="number">Points</th><th>Feedback</th>'
     return (

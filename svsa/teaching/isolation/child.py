@@ -116,9 +116,9 @@ def offer_equations() -> None:
         "actuators.installed": {"get_mechanism": None},
         "actuators.mechanism": {"MAX_ELASTIC": 6},
     }
-    for name, given in words.items():
+    for name, names in words.items():
         module = ModuleType(f"svsa.{name}")
-        vars(module).update(given)
+        vars(module).update(names)
         sys.modules[module.__name__] = module
 
 
@@ -146,8 +146,8 @@ def read_torque(answer: Any) -> tuple[float, float]:
         u1, u2 = answer
         return float(u1), float(u2)
     except (TypeError, ValueError):
-        reported = f"law must return two torques (u1, u2) in N·m, not {answer!r:.60}"
-        raise TypeError(reported) from None
+        message = f"law must return two torques (u1, u2) in N·m, not {answer!r:.60}"
+        raise TypeError(message) from None
 
 
 def read(length: int) -> bytes:
@@ -181,8 +181,8 @@ def serve(path: Path, answers: int) -> None:
     length = ASK.size + runs * ROW.size
     try:
         text, laws = path.read_text("utf-8"), []
-        for given in ROW.iter_unpack(read(runs * ROW.size)):
-            law = load_law(text, given)
+        for row in ROW.iter_unpack(read(runs * ROW.size)):
+            law = load_law(text, row)
             laws.append((law, find_named(law)))
         os.write(answers, ANSWER.pack(READY, number) + bytes(runs * PAIR.size))
         while len(asked := read(length)) == length:
@@ -190,13 +190,13 @@ def serve(path: Path, answers: int) -> None:
             if kind != TICK:
                 break
             torques = bytearray(runs * PAIR.size)
-            for run, given in enumerate(ROW.iter_unpack(memoryview(asked)[ASK.size :])):
-                if given[0] != given[0]:
+            for run, row in enumerate(ROW.iter_unpack(memoryview(asked)[ASK.size :])):
+                if row[0] != row[0]:
                     continue
                 law, named = laws[run]
-                always = Reference(*given[1:9]), State(*given[9:15]), Disturbance(*given[15:18])
-                reported = {"applied": Torque(*given[18:20]), "measured": Positions(*given[20:23])}
-                answer = law(given[0], *always, **{name: reported[name] for name in named})
+                always = Reference(*row[1:9]), State(*row[9:15]), Disturbance(*row[15:18])
+                optional = {"applied": Torque(*row[18:20]), "measured": Positions(*row[20:23])}
+                answer = law(row[0], *always, **{name: optional[name] for name in named})
                 PAIR.pack_into(torques, run * PAIR.size, *read_torque(answer))
             os.write(answers, ANSWER.pack(TORQUE, number) + torques)
     except BaseException as error:

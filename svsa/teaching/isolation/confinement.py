@@ -70,11 +70,11 @@ def check_tools() -> str:
     """
     if sys.platform != "linux":
         raise NotIsolatedError(f"it runs {sys.platform}")
-    found = shutil.which("bwrap")
-    if found is None:
+    path = shutil.which("bwrap")
+    if path is None:
         raise NotIsolatedError("bwrap is not installed")
     compile_filter()
-    return found
+    return path
 
 
 @contextmanager
@@ -87,9 +87,9 @@ def confine(source: bytes, answers: int, bounds: Bounds) -> Iterator[Command]:
     bwrap = check_tools()
     with ExitStack() as opened:
         folder = opened.enter_context(TemporaryDirectory(prefix="svsa-law-"))
-        given = {"/lab/law.py": source, "/lab/filter": compile_filter()}
+        files = {"/lab/law.py": source, "/lab/filter": compile_filter()}
         mounts: list[str] = []
-        for target, text in given.items():
+        for target, text in files.items():
             path = Path(folder) / Path(target).name
             path.write_bytes(text)
             mounts += ["--ro-bind", str(path), target]

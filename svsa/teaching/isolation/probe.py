@@ -41,8 +41,8 @@ def check_isolation() -> None:
         with LawProcess(_ESCAPES, _MODEL, Bounds(start_s=60.0)) as law:
             escaped, tried = law(0.0, *zeros, *still)
     except LawFaultError as error:
-        reported = error.output.strip().split("\n")[-1] or str(error)
-        raise NotIsolatedError(f"the sandbox does not start ({reported})") from None
+        reason = error.output.strip().split("\n")[-1] or str(error)
+        raise NotIsolatedError(f"the sandbox does not start ({reason})") from None
     if escaped or not tried:
         raise NotIsolatedError(f"{escaped:.0f} of {tried:.0f} attempts to escape succeeded")
 

@@ -133,8 +133,8 @@ class RunningLaw:
         if written < len(asked):
             raise self._fail("late", "The law does not read what it is asked.")
         answer = self._read_answer(wait_s)
-        answered, reported = ANSWER.unpack_from(answer)
-        if reported != int.from_bytes(number, "little"):
+        answered, echoed = ANSWER.unpack_from(answer)
+        if echoed != int.from_bytes(number, "little"):
             raise self._fail("early", "The law answered what it was not asked.")
         if answered == FAILED:
             raise self._fail("error", "The law raised an error.")
@@ -150,12 +150,12 @@ class RunningLaw:
             left_s = end_s - monotonic()
             if left_s <= 0 or not self._poll.poll(left_s * 1000):
                 whole_s = self._bounds.whole_s
-                reported = (
+                message = (
                     f"The law's run took more than {whole_s:g} s."
                     if end_s == self._end_s
                     else f"The law did not answer within {wait_s:g} s."
                 )
-                raise self._fail("late", reported)
+                raise self._fail("late", message)
             more = os.read(self._answers, self._length - len(got))
             if not more:
                 raise self._describe_end()
@@ -235,11 +235,11 @@ class GroupProcess(RunningLaw):
     ) -> None:
         super().__init__(source, models, bounds, place)
 
-    def __call__(self, time_s: float, is_asked: np.ndarray, reported: np.ndarray) -> np.ndarray:
+    def __call__(self, time_s: float, is_asked: np.ndarray, observed: np.ndarray) -> np.ndarray:
         """Compute torques (8, 2), N·m; 0 for a run that has ended."""
-        count, torques = self._runs, np.zeros((len(reported), 2))
+        count, torques = self._runs, np.zeros((len(observed), 2))
         rows = np.empty((count, DOUBLES))
         rows[:, 0] = np.where(is_asked[:count], time_s, np.nan)
-        rows[:, 1:] = reported[:count]
+        rows[:, 1:] = observed[:count]
         torques[:count] = np.frombuffer(self.answer(rows.tobytes())).reshape(count, 2)
         return torques

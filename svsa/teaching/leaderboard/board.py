@@ -137,13 +137,13 @@ class Board(ClassFolder[Entry]):
 
     def list(self) -> list[Entry]:
         """Return all entries, the highest success rate first."""
-        entries = [one for one in self.read_all() if _is_present(one)]
-        return sorted(entries, key=lambda one: (-one.standing.success, one.name, one.key))
+        entries = [entry for entry in self.read_all() if _is_present(entry)]
+        return sorted(entries, key=lambda entry: (-entry.standing.success, entry.name, entry.key))
 
 
 def rank_entries(entries: Sequence[Entry]) -> list[int]:
     """Rank entries by success rate, 1 is the highest; equal rates share a rank."""
-    rates = [one.standing.success for one in entries]
+    rates = [entry.standing.success for entry in entries]
     return [1 + sum(other > rate for other in rates) for rate in rates]
 
 
@@ -162,10 +162,10 @@ def measure_missing(
         def note(done: int, _: int, before: int = number * count) -> None:
             report(before + done, len(names) * count)
 
-        found = measure_standing(board.season, partial(run_installed, name), note, is_cancelled)
-        if found is None:
+        measured = measure_standing(board.season, partial(run_installed, name), note, is_cancelled)
+        if measured is None:
             return False
-        board.keep(build_entry(name, name, True, found.standing))
+        board.keep(build_entry(name, name, True, measured.standing))
     return True
 
 
@@ -189,11 +189,11 @@ def submit(
     before = board.find(key)
     if before is not None:
         return before
-    found = measure_standing(board.season, build_isolated_runner(source), report, is_cancelled)
-    if found is None:
+    measured = measure_standing(board.season, build_isolated_runner(source), report, is_cancelled)
+    if measured is None:
         return None
-    entry = build_entry(key, name, False, found.standing, author, person)
-    return board.keep(entry, found.worst.torques)
+    entry = build_entry(key, name, False, measured.standing, author, person)
+    return board.keep(entry, measured.worst.torques)
 
 
 def build_isolated_runner(source: bytes, place: Place = confine) -> RunScenario:

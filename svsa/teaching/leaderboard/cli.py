@@ -64,8 +64,8 @@ def submit_command(
     if practice:
         run_scenario = build_isolated_runner(source, leave_open)
         with _show_progress("Practice") as report:
-            found = measure_standing(build_season(PUBLIC_SEED), run_scenario, report)
-        own = found and build_entry("practice", called, False, found.standing, author)
+            measured = measure_standing(build_season(PUBLIC_SEED), run_scenario, report)
+        own = measured and build_entry("practice", called, False, measured.standing, author)
         _show([own] if own else [], as_json, "practice on public trials, not isolated")
         return
     board = Board(folder)
@@ -94,7 +94,7 @@ def _show_progress(title: str) -> Iterator[ReportProgress]:
 
 def _show(entries: Sequence[Entry], as_json: bool, trials: str, marked: str | None = None) -> None:
     if as_json:
-        print(json.dumps([one.model_dump(mode="json") for one in entries], indent=2))
+        print(json.dumps([entry.model_dump(mode="json") for entry in entries], indent=2))
         return
     screen = Console()
     Console(width=max(screen.width, MIN_WIDTH)).print(_build_table(entries, trials, marked))
@@ -113,8 +113,10 @@ def _build_table(entries: Sequence[Entry], trials: str, marked: str | None) -> T
     )
     for heading in _HEADINGS:
         table.add_column(heading, justify="left" if heading in ("law", "by", "worst") else "right")
-    for place, one in zip(rank_entries(entries), entries, strict=True):
-        table.add_row(str(place), *_build_cells(one), style="bold" if one.key == marked else None)
+    for place, entry in zip(rank_entries(entries), entries, strict=True):
+        table.add_row(
+            str(place), *_build_cells(entry), style="bold" if entry.key == marked else None
+        )
     return table
 
 

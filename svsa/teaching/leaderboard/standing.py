@@ -107,24 +107,24 @@ def measure_standing(
     Raises:
         StateError: If the law fails in the season's first run, or takes more than `MAX_S`.
     """
-    found: dict[str, LawRun] = {}
-    reported = {scenario.name for scenario in season.singles}
+    runs: dict[str, LawRun] = {}
+    single_names = {scenario.name for scenario in season.singles}
     end_s = monotonic() + MAX_S
     for scenario in _list_runs(season):
         if is_cancelled():
             return None
         if monotonic() > end_s:
             raise StateError(
-                f"The law has taken {MAX_S:g} s for {len(found)} of {season.run_count} runs: it is"
+                f"The law has taken {MAX_S:g} s for {len(runs)} of {season.run_count} runs: it is"
                 " too slow for the leaderboard."
             )
         run = run_scenario(scenario)
-        if not found and run.problem and run.tick_us is None:
+        if not runs and run.problem and run.tick_us is None:
             failure = f"The law fails in its first run: {run.problem}"
             raise StateError(failure + describe_output(run.output))
-        found[scenario.name] = run if scenario.name in reported else run._replace(torques=b"")
-        report(len(found), season.run_count)
-    return _sum_up(season, found)
+        runs[scenario.name] = run if scenario.name in single_names else run._replace(torques=b"")
+        report(len(runs), season.run_count)
+    return _sum_up(season, runs)
 
 
 def _list_runs(season: Season) -> Iterator[Scenario]:
@@ -132,14 +132,14 @@ def _list_runs(season: Season) -> Iterator[Scenario]:
     yield from season.trials
 
 
-def _sum_up(season: Season, found: dict[str, LawRun]) -> Measured:
-    singles = [(one, found[one.name]) for one in season.singles]
-    trials = [found[one.name] for one in season.trials]
+def _sum_up(season: Season, runs: dict[str, LawRun]) -> Measured:
+    singles = [(scenario, runs[scenario.name]) for scenario in season.singles]
+    trials = [runs[scenario.name] for scenario in season.trials]
     held = sum(run.held for run in trials)
     success = estimate_share(held, len(trials))
     ticks = [run.tick_us for run in trials if run.tick_us is not None]
     middle = median(map(_rank_badness, trials))
-    scenario, run = max(singles, key=lambda one: _rank_badness(one[1]))
+    scenario, run = max(singles, key=lambda pair: _rank_badness(pair[1]))
     standing = Standing(
         success=success.value,
         low=success.low,
