@@ -23,18 +23,18 @@ def datasheet(
     from svsa.analysis.datasheet.measure import measure_datasheet
 
     check_picture("--plot", plot)
-    found = measure_datasheet(name)
+    sheet = measure_datasheet(name)
     if plot is not None:
         from svsa.analysis.datasheet.page import draw_page
 
-        draw_page(found).savefig(plot)
+        draw_page(sheet).savefig(plot)
     if as_json:
-        typer.echo(json.dumps(found.model_dump(mode="json")))
+        typer.echo(json.dumps(sheet.model_dump(mode="json")))
         return
-    Console().print(*_build_tables(found), highlight=False)
+    Console().print(*_build_tables(sheet), highlight=False)
 
 
-def _build_tables(found: "Datasheet") -> list[Table]:
+def _build_tables(sheet: "Datasheet") -> list[Table]:
     from svsa.analysis.datasheet.rows import (
         PUBLISHED_HEADS,
         list_published,
@@ -42,29 +42,29 @@ def _build_tables(found: "Datasheet") -> list[Table]:
         write_figure,
     )
 
-    summary = Table(title=f"{found.title} ({found.source})", title_justify="left")
+    summary = Table(title=f"{sheet.title} ({sheet.source})", title_justify="left")
     summary.add_column("Quantity")
     summary.add_column("Simulated plant", justify="right")
-    for row in list_rows(found):
+    for row in list_rows(sheet):
         summary.add_row(*row)
     published = Table(title="Published figures", title_justify="left")
     for head in PUBLISHED_HEADS:
         published.add_column(head)
-    for compared in list_published(found) or [("none with a source is known", "", "", "", "")]:
+    for compared in list_published(sheet) or [("none with a source is known", "", "", "", "")]:
         published.add_row(*compared)
     presets = Table(title="Stiffness presets, motors at rest", title_justify="left")
     for column in ("σ at φ = 0 [N·m/rad]", "Deflection [rad]", "Torque [N·m]", "Energy [J]"):
         presets.add_column(column, justify="right")
-    for one in found.presets:
+    for preset in sheet.presets:
         numbers = (
-            one.stiffness_nm_per_rad,
-            one.deflection_rad[-1],
-            one.torque_nm[-1],
-            one.energy_j,
+            preset.stiffness_nm_per_rad,
+            preset.deflection_rad[-1],
+            preset.torque_nm[-1],
+            preset.energy_j,
         )
         presets.add_row(*map(write_figure, numbers))
     assumed = Table(title="Parameters without a published source", title_justify="left")
     assumed.add_column("Name")
-    for name in found.assumed:
+    for name in sheet.assumed:
         assumed.add_row(name)
     return [summary, published, presets, assumed]

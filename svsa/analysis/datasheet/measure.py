@@ -146,7 +146,7 @@ def measure_datasheet(name: str) -> Datasheet:
     loaded = find_stiffness_range(plant, domain, nominal)
     speeds = _list_speeds(mechanism, peak)
     commanded = max(loaded[0], low), min(loaded[1], high)
-    found = Datasheet(
+    sheet = Datasheet(
         name=name,
         title=mechanism.title,
         source=mechanism.source,
@@ -159,7 +159,7 @@ def measure_datasheet(name: str) -> Datasheet:
         deflection_max_rad=max(preset.deflection_rad[-1] for preset in presets),
         elastic_energy_max_j=max(preset.energy_j for preset in presets),
         presets=presets,
-        torque_stiffness=[one for one in ranges if one[1] <= one[2]],
+        torque_stiffness=[row for row in ranges if row[1] <= row[2]],
         speed_max_rad_per_s=speeds[-1][0] if speeds else None,
         torque_speed=speeds,
         assumed=[
@@ -168,14 +168,14 @@ def measure_datasheet(name: str) -> Datasheet:
             if source.startswith("assumed") and key != "mechanism"
         ],
     )
-    return found.changed(published=_compare(found, mechanism))
+    return sheet.changed(published=_compare(sheet, mechanism))
 
 
-def _compare(found: Datasheet, mechanism: Mechanism) -> list[PublishedFigure]:
+def _compare(sheet: Datasheet, mechanism: Mechanism) -> list[PublishedFigure]:
     """The published figures of an actuator next to the measured ones."""
     compared = []
     for name, (published, source) in mechanism.published.items():
-        value = getattr(found, name, "")
+        value = getattr(sheet, name, "")
         measured = [] if value is None else np.atleast_1d(value).tolist()
         if measured and (len(measured) != len(published) or not isinstance(measured[0], float)):
             bound = "figures by the field of the datasheet: one number, or both ends of a range"
@@ -186,7 +186,7 @@ def _compare(found: Datasheet, mechanism: Mechanism) -> list[PublishedFigure]:
                 field=name,
                 published=list(published),
                 measured=measured,
-                deviation=[one / other - 1.0 for one, other in pairs],
+                deviation=[figure / other - 1.0 for figure, other in pairs],
                 source=source,
             )
         )

@@ -10,11 +10,11 @@ from svsa.analysis.datasheet.measure import Datasheet
 from svsa.analysis.datasheet.rows import list_published, list_rows, write_figure
 
 
-def draw_page(found: Datasheet) -> Picture:
+def draw_page(sheet: Datasheet) -> Picture:
     """Draw the datasheet.
 
     Args:
-        found: Datasheet of an actuator.
+        sheet: Datasheet of an actuator.
 
     Returns:
         An A4 page.
@@ -26,11 +26,11 @@ def draw_page(found: Datasheet) -> Picture:
     curves, stiffness, workspace, speeds = (
         parts[name] for name in ("curves", "stiffness", "workspace", "speeds")
     )
-    page.suptitle(f"{found.title}\n{found.source}", fontsize=11)
+    page.suptitle(f"{sheet.title}\n{sheet.source}", fontsize=11)
     for axes in (numbers, notes, published):
         axes.axis("off")
     table = numbers.table(
-        cellText=[[name, value] for name, value in list_rows(found)],
+        cellText=[[name, value] for name, value in list_rows(sheet)],
         colWidths=[0.56, 0.46],
         loc="center left",
         cellLoc="left",
@@ -39,15 +39,15 @@ def draw_page(found: Datasheet) -> Picture:
     table.set_fontsize(6.0)
     table.scale(1.0, 1.6)
     table.set_in_layout(False)  # otherwise the curves become as narrow as the text permits
-    for one in found.presets:
-        label = f"σ = {write_figure(one.stiffness_nm_per_rad)}"
-        deflection = np.degrees(one.deflection_rad)
-        curves.plot(deflection, one.torque_nm, label=label)
-        stiffness.plot(deflection, one.stiffness_at_nm_per_rad, label=label)
+    for preset in sheet.presets:
+        label = f"σ = {write_figure(preset.stiffness_nm_per_rad)}"
+        deflection = np.degrees(preset.deflection_rad)
+        curves.plot(deflection, preset.torque_nm, label=label)
+        stiffness.plot(deflection, preset.stiffness_at_nm_per_rad, label=label)
     curves.set(xlabel="Deflection [°]", ylabel="Torque [N·m]", title="Presets (σ in N·m/rad)")
     curves.legend(fontsize=7)
     stiffness.set(xlabel="Deflection [°]", ylabel="Stiffness [N·m/rad]", yscale="log")
-    torque, least, greatest = np.array(found.torque_stiffness).T
+    torque, least, greatest = np.array(sheet.torque_stiffness).T
     workspace.fill_between(torque, least, greatest, alpha=0.4)
     workspace.set(
         xlabel="Torque at rest [N·m]",
@@ -55,13 +55,13 @@ def draw_page(found: Datasheet) -> Picture:
         yscale="log",
         title="Torque–stiffness workspace",
     )
-    if found.torque_speed:
-        speed, most = np.array(found.torque_speed).T
+    if sheet.torque_speed:
+        speed, most = np.array(sheet.torque_speed).T
         speeds.fill_between(speed, most, alpha=0.4)
     speeds.set(
         xlabel="Speed [rad/s]",
         ylabel="Torque [N·m]",
-        title="Torque–speed workspace" if found.torque_speed else "No speed limit is stated",
+        title="Torque–speed workspace" if sheet.torque_speed else "No speed limit is stated",
     )
     text = "\n".join(
         (
@@ -69,13 +69,13 @@ def draw_page(found: Datasheet) -> Picture:
             "the speed limit is that of the actuator's file.",
             "",
             "Assumed, without a published source:",
-            *found.assumed,
+            *sheet.assumed,
         )
     )
     notes.text(0.0, 1.0, text, va="top", fontsize=7).set_in_layout(False)
     compared = [
-        f"{quantity}: {fill(f'{value}; published {given} ({source}); deviation {deviation}', 100)}"
-        for quantity, value, given, deviation, source in list_published(found)
+        f"{quantity}: {fill(f'{value}; published {stated} ({source}); deviation {deviation}', 100)}"
+        for quantity, value, stated, deviation, source in list_published(sheet)
     ]
     lines = ["Published figures:", "", *(compared or ["none with a source is known"])]
     published.text(0.0, 1.0, "\n".join(lines), va="top", fontsize=7).set_in_layout(False)

@@ -146,4 +146,4 @@ def find_start_outcomes(
 
 def compute_share(outcomes: Sequence[StartOutcome]) -> float:
     """Compute the share of initial states that come to rest."""
-    return sum(one.outcome == "rest" for one in outcomes) / len(outcomes)
+    return sum(start.outcome == "rest" for start in outcomes) / len(outcomes)

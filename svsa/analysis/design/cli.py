@@ -56,7 +56,7 @@ def stability(
 
         save_picture(configuration, reports, plot)
     if as_json:
-        typer.echo(json.dumps({"law": law, "stability": [one.to_json() for one in reports]}))
+        typer.echo(json.dumps({"law": law, "stability": [report.to_json() for report in reports]}))
         return
     Console().print(*_build_tables(reports), highlight=False)
 
@@ -82,14 +82,14 @@ def margins(
     names = tuple(laws or list_law_names())
     titles = [get_law(name).title for name in names]
     table = Table("law", "σ", *HEADS, title="Margins of the sampled loop about rest, on the rig")
-    found: list[dict[str, Any]] = []
+    rows: list[dict[str, Any]] = []
     with Progress(console=Console(stderr=True), transient=True) as bar:
         for name, title in bar.track(list(zip(names, titles, strict=True)), description="Margins"):
-            for sigma, one in compute_law_margins(name, tuple(stiffness or STIFFNESSES)):
-                table.add_row(title, f"{sigma:g}", *format_margins(one))
-                found.append({"law": name, "stiffness_nm_per_rad": sigma, **one.to_json()})
+            for sigma, loop_margins in compute_law_margins(name, tuple(stiffness or STIFFNESSES)):
+                table.add_row(title, f"{sigma:g}", *format_margins(loop_margins))
+                rows.append({"law": name, "stiffness_nm_per_rad": sigma, **loop_margins.to_json()})
     if as_json:
-        typer.echo(json.dumps({"margins": found}))
+        typer.echo(json.dumps({"margins": rows}))
         return
     Console().print(table, highlight=False)
 
@@ -107,22 +107,31 @@ def _build_loop_table(reports: "list[Report]") -> Table:
         caption_justify="left",
     )
     rows: list[tuple[str, list[str]]] = [
-        ("slowest real part, rad/s", [f"{one.stability.loop.slowest:.2f}" for one in reports]),
-        ("least damping", [f"{one.stability.loop.least_damping:.2f}" for one in reports]),
-        ("e per ẇ2, ° per N·m/s", [_format_degrees(one.stability.gain.ramp) for one in reports]),
-        ("  by the formula", [_format_degrees(one.stability.formula) for one in reports]),
-        ("  simulated ramps", [_format_ramps(one) for one in reports]),
-        ("  L1 gain, linear loop", [_format_degrees(one.stability.gain.l1) for one in reports]),
-        ("  floor as β → ∞", [_format_degrees(one.stability.floor) for one in reports]),
-        ("|w2 − ŵ2| per ẇ2, s", [_format_lag(one) for one in reports]),
-        ("fastest β on the rig, rad/s", [_format_fastest(one, 1) for one in reports]),
-        ("  with two samples of delay", [_format_fastest(one, 2) for one in reports]),
-        ("  ideal", [_format_fastest(one, 0) for one in reports]),
-        ("sampled starts that come to rest", [_format_share(one.rigid) for one in reports]),
-        ("  with φ ±0.3 rad, φ̇ ±5 rad/s", [_format_share(one.deflected) for one in reports]),
+        (
+            "slowest real part, rad/s",
+            [f"{report.stability.loop.slowest:.2f}" for report in reports],
+        ),
+        ("least damping", [f"{report.stability.loop.least_damping:.2f}" for report in reports]),
+        (
+            "e per ẇ2, ° per N·m/s",
+            [_format_degrees(report.stability.gain.ramp) for report in reports],
+        ),
+        ("  by the formula", [_format_degrees(report.stability.formula) for report in reports]),
+        ("  simulated ramps", [_format_ramps(report) for report in reports]),
+        (
+            "  L1 gain, linear loop",
+            [_format_degrees(report.stability.gain.l1) for report in reports],
+        ),
+        ("  floor as β → ∞", [_format_degrees(report.stability.floor) for report in reports]),
+        ("|w2 − ŵ2| per ẇ2, s", [_format_lag(report) for report in reports]),
+        ("fastest β on the rig, rad/s", [_format_fastest(report, 1) for report in reports]),
+        ("  with two samples of delay", [_format_fastest(report, 2) for report in reports]),
+        ("  ideal", [_format_fastest(report, 0) for report in reports]),
+        ("sampled starts that come to rest", [_format_share(report.rigid) for report in reports]),
+        ("  with φ ±0.3 rad, φ̇ ±5 rad/s", [_format_share(report.deflected) for report in reports]),
     ]
-    for one in reports:
-        table.add_column(f"{one.sigma:g}", justify="right")
+    for report in reports:
+        table.add_column(f"{report.sigma:g}", justify="right")
     for name, values in rows:
         table.add_row(name, *values)
     return table
@@ -139,18 +148,19 @@ def _build_range_table(reports: "list[Report]") -> Table:
         caption_justify="left",
     )
     table.add_column("now", justify="right")
-    for one in reports:
-        table.add_column(f"σ = {one.sigma:g}", justify="right")
-    for rows in zip(*(one.stability.ranges for one in reports), strict=True):
+    for report in reports:
+        table.add_column(f"σ = {report.sigma:g}", justify="right")
+    for rows in zip(*(report.stability.ranges for report in reports), strict=True):
         ends = [_format_range(row) for row in rows]
         table.add_row(rows[0].symbol, f"{rows[0].present:.2f}", *ends)
     return table
 
 
-def _format_range(found: "StableRange") -> str:
-    if found.high is None:
-        return "all" if found.low is None else f"from {found.low:.2f}"
-    return f"up to {found.high:.2f}" if found.low is None else f"{found.low:.2f} – {found.high:.2f}"
+def _format_range(stable_range: "StableRange") -> str:
+    low, high = stable_range.low, stable_range.high
+    if high is None:
+        return "all" if low is None else f"from {low:.2f}"
+    return f"up to {high:.2f}" if low is None else f"{low:.2f} – {high:.2f}"
 
 
 def _format_degrees(gain: float | None) -> str:

@@ -59,8 +59,10 @@ class ClosedLoop:
     @property
     def poles(self) -> np.ndarray:
         """The eigenvalues of A, rad/s, slowest first."""
-        found = sorted(map(complex, np.linalg.eigvals(self.A)), key=lambda s: (-s.real, s.imag))
-        return np.array(found)
+        eigenvalues = sorted(
+            map(complex, np.linalg.eigvals(self.A)), key=lambda s: (-s.real, s.imag)
+        )
+        return np.array(eigenvalues)
 
     @property
     def slowest(self) -> float:

@@ -19,6 +19,6 @@ def differentiate_both(
 ) -> tuple[np.ndarray, np.ndarray]:
     """`differentiate`, and how much the derivatives to both sides differ, of the same shape."""
     middle, steps = function(at)[:, np.newaxis], step * np.eye(len(at))
-    ahead = np.column_stack([function(at + one) for one in steps])
-    behind = np.column_stack([function(at - one) for one in steps])
+    ahead = np.column_stack([function(at + offset) for offset in steps])
+    behind = np.column_stack([function(at - offset) for offset in steps])
     return (ahead - behind) / (2.0 * step), np.abs(ahead + behind - 2.0 * middle) / step

@@ -56,13 +56,17 @@ def _draw_poles(axes: Axes, reports: Sequence[Report]) -> None:
 def _draw_bode(axes: Axes, configuration: Configuration, reports: Sequence[Report]) -> None:
     for report, color in zip(reports, COLORS, strict=False):
         for effects, style, name in ((IDEAL, "-", "ideal"), (RIG, "--", "rig")):
-            found = compute_disturbance_response(
+            response = compute_disturbance_response(
                 configuration.changed(effects=effects), report.sigma
             )
-            if found.is_stable:
+            if response.is_stable:
                 label = f"σ = {report.sigma:g}, {name}"
                 axes.loglog(
-                    found.frequency, np.degrees(found.magnitude), style, color=color, label=label
+                    response.frequency,
+                    np.degrees(response.magnitude),
+                    style,
+                    color=color,
+                    label=label,
                 )
     axes.set(
         title="Disturbance on the link → error",
@@ -100,8 +104,8 @@ def _draw_attraction(axes: Axes, drawn: str, outcomes: dict[Cell, StartOutcome])
         return
     count = 1 + max(cell.row for cell in outcomes)
     grid = np.zeros((count, count))
-    for cell, one in outcomes.items():
-        grid[cell] = _OUTCOMES[one.outcome]
+    for cell, start in outcomes.items():
+        grid[cell] = _OUTCOMES[start.outcome]
     starts = build_map(count)
     for (outcome, number), color in zip(_OUTCOMES.items(), _OUTCOME_COLORS, strict=True):
         if np.any(grid == number):

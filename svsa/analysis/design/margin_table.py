@@ -31,7 +31,7 @@ def compute_law_margins(
 
 
 def format_margins(margins: Margins) -> tuple[str, ...]:
-    """One cell for each of `HEADS`."""
+    """Format margins as the cells of a row, one for each of `HEADS`."""
     if not margins.is_stable:
         return ("unstable", "–", "–", "–", "–")
     note = ", switches at rest" if margins.is_switching else ""
@@ -45,19 +45,19 @@ def format_margins(margins: Margins) -> tuple[str, ...]:
     )
 
 
-def _format_range(found: GainRange | None) -> str:
-    if found is None:
+def _format_range(gain_range: GainRange | None) -> str:
+    if gain_range is None:
         return "–"
-    low = "0" if found.low is None else f"{found.low:.2f}"
-    return f"from {low}" if found.high is None else f"{low} – {found.high:.2f}"
+    low = "0" if gain_range.low is None else f"{gain_range.low:.2f}"
+    return f"from {low}" if gain_range.high is None else f"{low} – {gain_range.high:.2f}"
 
 
-def _format_error(found: JointError | None) -> str:
-    if found is None:
+def _format_error(joint_error: JointError | None) -> str:
+    if joint_error is None:
         return "none found"
     parts = [
         f"{symbol} {error:+.0%}".replace("-", "\N{MINUS SIGN}")
-        for symbol, error in zip(SYMBOLS, found.errors, strict=True)
+        for symbol, error in zip(SYMBOLS, joint_error.errors, strict=True)
         if abs(error) >= _LEAST_SHARE
     ]
-    return f"{found.norm:.2f} ({', '.join(parts)})"
+    return f"{joint_error.norm:.2f} ({', '.join(parts)})"

@@ -58,7 +58,7 @@ class JointError(NamedTuple):
 
     @property
     def norm(self) -> float:
-        """√(Σ error²), 1."""
+        """Norm √(Σ error²) of the relative errors of the parameters, 1."""
         return math.hypot(*self.errors)
 
 
@@ -180,12 +180,12 @@ def _find_delay(omega: np.ndarray, L: np.ndarray) -> float | None:
 
     Between two frequencies modulus and angle of the eigenvalues are interpolated.
     """
-    found = np.linalg.eigvals(L)
-    for one, last in zip(found[1:], found[:-1], strict=True):
-        if np.sum(np.abs(one[::-1] - last)) < np.sum(np.abs(one - last)):
-            one[:] = one[::-1]
-    size = np.log(np.maximum(np.abs(found), np.finfo(float).tiny))
-    angle = np.unwrap(np.angle(-found), axis=0)
+    eigenvalues = np.linalg.eigvals(L)
+    for pair, last in zip(eigenvalues[1:], eigenvalues[:-1], strict=True):
+        if np.sum(np.abs(pair[::-1] - last)) < np.sum(np.abs(pair - last)):
+            pair[:] = pair[::-1]
+    size = np.log(np.maximum(np.abs(eigenvalues), np.finfo(float).tiny))
+    angle = np.unwrap(np.angle(-eigenvalues), axis=0)
     delays = []
     for motor in (0, 1):
         for at in np.flatnonzero(size[1:, motor] * size[:-1, motor] < 0.0):
@@ -232,13 +232,19 @@ def find_joint_error(configuration: Configuration, sigma: float) -> JointError |
             inside = radius
         return None
 
-    signs = [np.array(one) for one in product((-1.0, 0.0, 1.0), repeat=len(JOINT)) if any(one)]
-    crossings = [find_crossing(one / np.linalg.norm(one)) for one in signs]
-    starts = sorted((one for one in crossings if one is not None), key=np.linalg.norm)
-    found = [_descend(build, find_crossing, one) for one in starts[:_STARTS]]
-    if not found:
+    signs = [
+        np.array(direction)
+        for direction in product((-1.0, 0.0, 1.0), repeat=len(JOINT))
+        if any(direction)
+    ]
+    crossings = [find_crossing(direction / np.linalg.norm(direction)) for direction in signs]
+    starts = sorted(
+        (crossing for crossing in crossings if crossing is not None), key=np.linalg.norm
+    )
+    minima = [_descend(build, find_crossing, start) for start in starts[:_STARTS]]
+    if not minima:
         return None
-    return JointError(tuple(min(found, key=np.linalg.norm).tolist()))
+    return JointError(tuple(min(minima, key=np.linalg.norm).tolist()))
 
 
 def _descend(
@@ -250,13 +256,13 @@ def _descend(
     share = 1.0
     for _ in range(_STEPS):
         here = compute_radius(build(errors))
-        ahead = [compute_radius(build(errors + one)) for one in _CLOSE * np.eye(len(errors))]
+        ahead = [compute_radius(build(errors + offset)) for offset in _CLOSE * np.eye(len(errors))]
         gradient = np.array(ahead) - here
         size = np.linalg.norm(gradient)
         if size == 0.0 or share < _CLOSE:
             break
-        wanted = (1.0 - share) * errors / np.linalg.norm(errors) + share * gradient / size
-        nearer = find_crossing(wanted / np.linalg.norm(wanted))
+        target = (1.0 - share) * errors / np.linalg.norm(errors) + share * gradient / size
+        nearer = find_crossing(target / np.linalg.norm(target))
         if nearer is not None and np.linalg.norm(nearer) < np.linalg.norm(errors):
             errors = nearer
         else:

@@ -91,10 +91,8 @@ def _check_continuous(configuration: Configuration, sigma: float, loop: ClosedLo
     if is_found and is_moving:
         slowest = float(np.max(poles.real))
         still = np.linalg.solve(np.eye(len(sampled.A)) - sampled.A, sampled.W[:, 0])[0]
-        reported = np.linalg.solve(loop.A, loop.B[:, 0])
-        is_same_error = math.isclose(
-            still, float(loop.C[0] @ reported), rel_tol=_CLOSE, abs_tol=1e-5
-        )
+        state = np.linalg.solve(loop.A, loop.B[:, 0])
+        is_same_error = math.isclose(still, float(loop.C[0] @ state), rel_tol=_CLOSE, abs_tol=1e-5)
         if is_same_error and math.isclose(slowest, loop.slowest, rel_tol=_CLOSE, abs_tol=_CLOSE):
             return
     bound = "a law whose continuous model has the poles and steady state of its sampled loop"

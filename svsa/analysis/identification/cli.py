@@ -53,31 +53,31 @@ def identify(
         Console(stderr=True).print(f"Note: {newer}", highlight=False, markup=False)
     with Progress(console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task("Identifying", total=1.0)
-        found = identify_measured(
+        identified = identify_measured(
             run,
             parameters=parameters,
             stiffness_nm_per_rad=stiffness,
             progress=lambda done: bar.update(task, completed=done),
         )
     if as_json:
-        typer.echo(json.dumps(found.to_json(), indent=2))
+        typer.echo(json.dumps(identified.to_json(), indent=2))
         return
     console = Console()
-    console.print(_build_table(found), highlight=False)
-    console.print(_summarize(found), highlight=False)
-    design = found.build_design()
-    source = f"run {found.run_id}: actuator and nominal identified, the rest as in the run"
+    console.print(_build_table(identified), highlight=False)
+    console.print(_summarize(identified), highlight=False)
+    design = identified.build_design()
+    source = f"run {identified.run_id}: actuator and nominal identified, the rest as in the run"
     write_design(output, design, source)
     console.print(f"Parameter file: {output}", highlight=False)
 
 
-def _build_table(found: "Identification") -> Table:
-    table = Table("", title=f"Run {found.run_id}", title_justify="left")
+def _build_table(identified: "Identification") -> Table:
+    table = Table("", title=f"Run {identified.run_id}", title_justify="left")
     for column in ("estimate", "95 % interval", "±", "unit"):
         table.add_column(column, justify="left" if column == "unit" else "right")
-    for name, estimate in found.estimates.items():
+    for name, estimate in identified.estimates.items():
         interval = f"{estimate.low:.5g} … {estimate.high:.5g}", f"{estimate.relative_width:.2%}"
-        if name in found.undetermined:
+        if name in identified.undetermined:
             interval = "not determined", ""
         elif estimate.relative_width > 1.0:
             interval = interval[0], ""
@@ -85,10 +85,10 @@ def _build_table(found: "Identification") -> Table:
     return table
 
 
-def _summarize(found: "Identification") -> str:
-    theta1, theta2, phi = (1e6 * value for value in found.residual_rad)
+def _summarize(identified: "Identification") -> str:
+    theta1, theta2, phi = (1e6 * value for value in identified.residual_rad)
     return (
-        f"Used: {found.used_s:g} s; under a load: {found.loaded_s:g} s; not explained:"
-        f" {found.dropped_s:g} s. Residual of θ1, θ2, φ: {theta1:.0f}, {theta2:.0f}, {phi:.0f}"
-        f" µrad, {found.misfit:.1f} times the noise of the sensors."
+        f"Used: {identified.used_s:g} s; under a load: {identified.loaded_s:g} s; not explained:"
+        f" {identified.dropped_s:g} s. Residual of θ1, θ2, φ: {theta1:.0f}, {theta2:.0f}, {phi:.0f}"
+        f" µrad, {identified.misfit:.1f} times the noise of the sensors."
     )

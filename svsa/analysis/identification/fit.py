@@ -120,13 +120,13 @@ def _minimize(
         report(iteration)
         while True:
             trial = problem.step(normal, point, damping)
-            found = problem.compute_cost(problem.compute_squares(trial), trial.values)
-            if found <= cost:
+            trial_cost = problem.compute_cost(problem.compute_squares(trial), trial.values)
+            if trial_cost <= cost:
                 break
             if damping > _MAX_DAMPING:
                 return point, normal.squares
             damping *= 10.0
-        fall, point, cost = cost - found, trial, found
+        fall, point, cost = cost - trial_cost, trial, trial_cost
         normal = problem.linearize(point)
         damping = max(0.1 * damping, _MIN_DAMPING)
         if fall <= tolerance * cost:

@@ -92,8 +92,8 @@ class Identification(NamedTuple):
                 f"Run {self.run_id} does not determine {symbols}: play the identification"
                 " excitation, slow and fast, soft and stiff."
             )
-        found = {name: self.estimates[name].value for name in ACTUATOR}
-        actuator = self.configuration.actuator.changed(**found)
+        parameters = {name: self.estimates[name].value for name in ACTUATOR}
+        actuator = self.configuration.actuator.changed(**parameters)
         run = self.configuration
         return Design(
             actuator=actuator,
@@ -134,9 +134,9 @@ def identify_evidence(
     Raises:
         IdentificationError: If the run cannot be used.
     """
-    found = fit(evidence, progress)
+    solution = fit(evidence, progress)
     noise = np.maximum(guess_noise(evidence), _MIN_NOISE_RAD)
-    misfit = float(np.max(found.residual / noise))
+    misfit = float(np.max(solution.residual / noise))
     if misfit > LARGEST_MISFIT:
         raise IdentificationError(
             f"The model leaves {misfit:.0f} times the noise of the sensors unexplained in run"
@@ -144,9 +144,11 @@ def identify_evidence(
         )
     from scipy.stats import t as student  # imported here: the import is slow
 
-    factor = float(student.ppf(0.5 + 0.5 * CONFIDENCE, max(found.used - len(found.values), 1)))
-    values = dict(zip(Parameters._fields, found.values.tolist(), strict=True))
-    deviations = dict(zip(Parameters._fields, found.deviations.tolist(), strict=True))
+    factor = float(
+        student.ppf(0.5 + 0.5 * CONFIDENCE, max(solution.used - len(solution.values), 1))
+    )
+    values = dict(zip(Parameters._fields, solution.values.tolist(), strict=True))
+    deviations = dict(zip(Parameters._fields, solution.deviations.tolist(), strict=True))
     square = evidence.configuration.actuator.radius_m**2
     estimates = {}
     for name, (key, symbol, unit) in _FOUND.items():
@@ -156,15 +158,15 @@ def identify_evidence(
     wide = {n for n in ACTUATOR if estimates[n].relative_width > LARGEST_INTERVAL}
     still = _find_unmoved(evidence)
     piece = evidence.length * evidence.setting.period
-    theta1, theta2, phi = found.residual.tolist()
+    theta1, theta2, phi = solution.residual.tolist()
     return Identification(
         run_id=run_id,
         configuration=evidence.configuration,
         estimates=estimates,
         residual_rad=(theta1, theta2, phi),
-        used_s=found.used * piece,
+        used_s=solution.used * piece,
         loaded_s=evidence.loaded * evidence.setting.period,
-        dropped_s=found.dropped * piece,
+        dropped_s=solution.dropped * piece,
         misfit=misfit,
         undetermined=tuple(name for name in ACTUATOR if name in wide | still),
     )

@@ -75,9 +75,9 @@ def guess_parameters(evidence: Evidence) -> np.ndarray:
     asked = np.concatenate([zero, *(weigh(u) for u in evidence.torques.asked.T)])
     scale = np.linalg.norm(matrix, axis=0) + 1e-12
     solution = np.linalg.lstsq(matrix / scale, asked, rcond=1e-9)[0] / scale
-    found = dict(zip(columns, solution.tolist(), strict=True))
-    moment = found.pop("gravity_moment")
-    values = {name: max(value, _MIN) for name, value in found.items()} | _SHAPE
+    estimates = dict(zip(columns, solution.tolist(), strict=True))
+    moment = estimates.pop("gravity_moment")
+    values = {name: max(value, _MIN) for name, value in estimates.items()} | _SHAPE
     return np.array(Parameters(**values, gravity_moment=moment))
 
 

@@ -124,12 +124,12 @@ def _read_table(path: Path) -> dict[str, np.ndarray]:
     except (OSError, pa.ArrowInvalid) as error:
         bound = f"a readable CSV file with a header, {CSV_FORMAT} ({error})"
         raise ParameterError(Violation("file", str(path), "", bound)) from None
-    wanted = (TIME, *(f"{name}_rad" for name in ANGLES), *TORQUES)
+    needed = (TIME, *(f"{name}_rad" for name in ANGLES), *TORQUES)
     for name in (TIME, *TORQUES):
         if name not in table.column_names:
-            bound = f"columns {', '.join(wanted)}, {CSV_FORMAT}"
-            found = ", ".join(table.column_names)
-            raise ParameterError(Violation("the head", found, "", bound), file=str(path))
+            bound = f"columns {', '.join(needed)}, {CSV_FORMAT}"
+            present = ", ".join(table.column_names)
+            raise ParameterError(Violation("the head", present, "", bound), file=str(path))
     columns = {}
     for name in table.column_names:
         try:
