@@ -119,9 +119,9 @@ def _find_coordinate(actuator: ElasticActuator, limits: Limits, end: str) -> flo
     """
     sigma = getattr(limits, end)
     s = compute_coordinate_for_stiffness(actuator, sigma)
-    found = compute_stiffness_of(actuator, s, 0.0)
-    if not math.isclose(found, sigma, rel_tol=1e-9):
-        bound = f"a stiffness that the energy gives; the nearest is {found:.4g} N·m/rad"
+    nearest = compute_stiffness_of(actuator, s, 0.0)
+    if not math.isclose(nearest, sigma, rel_tol=1e-9):
+        bound = f"a stiffness that the energy gives; the nearest is {nearest:.4g} N·m/rad"
         raise ParameterError(Violation(f"limits.{end}", sigma, "N·m/rad", bound))
     return s
 

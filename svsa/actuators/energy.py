@@ -83,14 +83,15 @@ def _check_stiffness(mechanism: Mechanism, energy: Energy) -> None:
     slopes = []
     for i in range(_TESTED):
         s = low + (high - low) * i / (_TESTED - 1)
-        torques, found = energy.functions["compute_state"](s, 0.0, *values)
-        if not 0.0 < found.sigma < math.inf:
-            text = f"its stiffness at φ = 0 and s = {s:.4g} is {found.sigma:.4g} N·m/rad, not > 0"
+        torques, derivatives = energy.functions["compute_state"](s, 0.0, *values)
+        if not 0.0 < derivatives.sigma < math.inf:
+            sigma = derivatives.sigma
+            text = f"its stiffness at φ = 0 and s = {s:.4g} is {sigma:.4g} N·m/rad, not > 0"
             raise reject_energy(mechanism, text)
-        if abs(torques.torque) > _RELAXED_RAD * found.sigma:
+        if abs(torques.torque) > _RELAXED_RAD * derivatives.sigma:
             text = f"its torque at φ = 0 and s = {s:.4g} is {torques.torque:.4g} N·m, not 0"
             raise reject_energy(mechanism, text)
-        slopes.append(found.sigma_mu)
+        slopes.append(derivatives.sigma_mu)
     if not (min(slopes) > 0.0 or max(slopes) < 0.0):
         raise reject_energy(
             mechanism, f"its stiffness at φ = 0 is not monotonic in s, {low:g} … {high:g}"

@@ -61,7 +61,9 @@ def write_source(mechanism: Mechanism) -> str:
     _check_parts(mechanism, sympy, U)
     slope = sigma.diff(s)
     if not mechanism.has_stiffness_motor:
-        if any(_shorten(sympy, one) != 0 for one in (reaction, slope, sigma.diff(phi))):
+        if any(
+            _shorten(sympy, derivative) != 0 for derivative in (reaction, slope, sigma.diff(phi))
+        ):
             finding = "without a stiffness motor it is that of a linear spring, ½ k φ²"
             raise reject_energy(mechanism, finding)
         # The SVSA's lever has σ̇ = ṡ: A(x) stays regular, and the error σ_d − σ = 0 never moves
@@ -69,11 +71,14 @@ def write_source(mechanism: Mechanism) -> str:
         slope = sympy.Integer(1)
     elif _shorten(sympy, slope) == 0:
         raise reject_energy(mechanism, "its stiffness ∂²U/∂φ² does not depend on s")
-    relaxed = (one.subs(phi, 0) for one in (torque, sigma, sigma.diff(phi), sigma.diff(phi, 2)))
-    if any(one.has(sympy.nan, sympy.zoo, sympy.oo, -sympy.oo) for one in relaxed):
+    relaxed = (
+        derivative.subs(phi, 0)
+        for derivative in (torque, sigma, sigma.diff(phi), sigma.diff(phi, 2))
+    )
+    if any(value.has(sympy.nan, sympy.zoo, sympy.oo, -sympy.oo) for value in relaxed):
         raise reject_energy(mechanism, "it is not smooth: a derivative is not finite at φ = 0")
     determinant = sigma * slope - torque.diff(s) * sigma.diff(phi)
-    found = {
+    results = {
         "compute_torques": [torque, reaction],
         "compute_margin": [
             sigma,
@@ -93,7 +98,7 @@ def write_source(mechanism: Mechanism) -> str:
         "compute_energy": [U],
     }
     write = _build_writer(mechanism, sympy)
-    return _HEAD + "".join(write(name, expressions) for name, expressions in found.items())
+    return _HEAD + "".join(write(name, expressions) for name, expressions in results.items())
 
 
 def _read_energy(mechanism: Mechanism, sympy: Any, s: Any, phi: Any) -> Any:
@@ -117,8 +122,8 @@ def _read_energy(mechanism: Mechanism, sympy: Any, s: Any, phi: Any) -> Any:
     if foreign:
         raise reject_energy(mechanism, f"it depends on {', '.join(map(str, foreign))}")
     return U.replace(
-        lambda one: one.is_Pow and one.exp.is_Float and float(2 * one.exp).is_integer(),
-        lambda one: one.base ** sympy.Rational(one.exp),
+        lambda part: part.is_Pow and part.exp.is_Float and float(2 * part.exp).is_integer(),
+        lambda part: part.base ** sympy.Rational(part.exp),
     )
 
 
@@ -127,22 +132,22 @@ def _check_parts(mechanism: Mechanism, sympy: Any, U: Any) -> None:
     names = [*_SINGLE, *(name for pair in _PAIRS for name in pair)]
     functions = tuple(getattr(sympy, name) for name in names)
     sums = sympy.Add, sympy.Mul, sympy.Pow, sympy.Symbol, sympy.NumberSymbol
-    for one in sympy.preorder_traversal(U):
-        if isinstance(one, sympy.Function) and not isinstance(one, functions):
+    for part in sympy.preorder_traversal(U):
+        if isinstance(part, sympy.Function) and not isinstance(part, functions):
             known = ", ".join(names)
-            finding = f"it contains the function {type(one).__name__}; the lab computes {known}"
+            finding = f"it contains the function {type(part).__name__}; the lab computes {known}"
             raise reject_energy(mechanism, finding)
-        if not (isinstance(one, (*sums, *functions)) or (one.is_Number and one.is_finite)):
-            raise reject_energy(mechanism, f"it contains {one}")
+        if not (isinstance(part, (*sums, *functions)) or (part.is_Number and part.is_finite)):
+            raise reject_energy(mechanism, f"it contains {part}")
 
 
 def _check_smooth(mechanism: Mechanism, sympy: Any, expressions: list[Any]) -> None:
     names = ("Abs", "sign", "Max", "Min", "Piecewise", "Heaviside", "DiracDelta", "floor")
     bends = tuple(getattr(sympy, name) for name in (*names, "ceiling", "Mod", "Derivative"))
     for expression in expressions:
-        found = expression.atoms(*bends)
-        if found:
-            raise reject_energy(mechanism, f"it is not smooth: it contains {next(iter(found))}")
+        bent = expression.atoms(*bends)
+        if bent:
+            raise reject_energy(mechanism, f"it is not smooth: it contains {next(iter(bent))}")
 
 
 def _build_writer(mechanism: Mechanism, sympy: Any) -> Callable[[str, list[Any]], str]:
@@ -160,11 +165,13 @@ def _build_writer(mechanism: Mechanism, sympy: Any) -> Callable[[str, list[Any]]
 
         def _sort(self, parts: tuple[Any, ...]) -> list[Any]:
             return sorted(
-                parts, key=lambda one: (self.find_level(one), sympy.default_sort_key(one))
+                parts, key=lambda part: (self.find_level(part), sympy.default_sort_key(part))
             )
 
         def find_level(self, expr: Any) -> int:
-            return max((self.levels.get(one.name, 0) for one in expr.free_symbols), default=-1)
+            return max(
+                (self.levels.get(symbol.name, 0) for symbol in expr.free_symbols), default=-1
+            )
 
         def _print_Add(self, expr: Any, order: Any = None) -> str:  # noqa: N802
             first, *others = self._sort(expr.args)
@@ -235,24 +242,24 @@ def _name_shared(
     named: list[tuple[str, str, Any]] = []
     functions = {getattr(sympy, name): pair for pair in _PAIRS for name in pair}
 
-    def is_costly(one: Any) -> bool:
-        whole = one.is_Pow and one.exp.is_Integer and one.exp > 0
-        return type(one) in functions or (one.is_Pow and not whole)
+    def is_costly(part: Any) -> bool:
+        whole = part.is_Pow and part.exp.is_Integer and part.exp > 0
+        return type(part) in functions or (part.is_Pow and not whole)
 
-    def list_costly(one: Any) -> list[Any]:
-        return [part for part in one.atoms(sympy.Pow, *functions) if is_costly(part)]
+    def list_costly(expression: Any) -> list[Any]:
+        return [part for part in expression.atoms(sympy.Pow, *functions) if is_costly(part)]
 
     while True:
-        found = list_costly(sympy.Tuple(*expressions))
-        inner = [one for one in found if not any(list_costly(part) for part in one.args)]
+        costly = list_costly(sympy.Tuple(*expressions))
+        inner = [term for term in costly if not any(list_costly(part) for part in term.args)]
         if not inner:
             return named, expressions
-        one = min(inner, key=sympy.default_sort_key)
-        if one.is_Pow:
-            names, replace = _name_powers(mechanism, sympy, one, inner, len(named))
+        innermost = min(inner, key=sympy.default_sort_key)
+        if innermost.is_Pow:
+            names, replace = _name_powers(mechanism, sympy, innermost, inner, len(named))
             named += names
         else:
-            pair, argument = functions[type(one)], one.args[0]
+            pair, argument = functions[type(innermost)], innermost.args[0]
             names = [f"{name}{len(named)}" for name in pair]
             function = f"{_PAIRS[pair]}({{}})"
             if function == "sin_cos({})" and argument == sympy.Symbol("phi", real=True):
@@ -268,10 +275,10 @@ def _name_shared(
 
 
 def _name_powers(
-    mechanism: Mechanism, sympy: Any, one: Any, powers: list[Any], count: int
+    mechanism: Mechanism, sympy: Any, shared: Any, powers: list[Any], count: int
 ) -> tuple[list[tuple[str, str, Any]], dict[Any, Any]]:
     """Name the root and the reciprocal of a power's base, and the replacements of powers."""
-    base = one.base
+    base = shared.base
     alike = [power for power in powers if power.is_Pow and power.base in (base, -base)]
     half, roots = sympy.Rational(1, 2), [power for power in alike if not power.exp.is_Integer]
     unit = half if roots else sympy.Integer(1)

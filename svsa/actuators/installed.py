@@ -60,10 +60,10 @@ def get_mechanism(name: str, field: str = "actuator") -> Mechanism:
         known = list_mechanism_names()
         bound = f"an installed actuator: {', '.join(known)}{suggest(name, known)}"
         raise ParameterError(Violation(field, name, "", bound))
-    found = _load(name)
-    if isinstance(found, str):
-        raise ParameterError(Violation(field, name, "", "", finding=found))
-    return found
+    mechanism = _load(name)
+    if isinstance(mechanism, str):
+        raise ParameterError(Violation(field, name, "", "", finding=mechanism))
+    return mechanism
 
 
 def find_mechanism(parameters: MechanismParameters) -> Mechanism:
@@ -75,19 +75,19 @@ def find_mechanism(parameters: MechanismParameters) -> Mechanism:
     return get_mechanism(get_mechanism_name(parameters))
 
 
-def _read(given: Any, read_svsa: ValidatorFunctionWrapHandler) -> Any:
+def _read(written: Any, read_svsa: ValidatorFunctionWrapHandler) -> Any:
     """Parameters of any actuator; those that name no mechanism are of the SVSA."""
-    if isinstance(given, MechanismParameters):
-        return given
-    if isinstance(given, dict) and isinstance(name := given.get("mechanism"), str):
-        values = {key: value for key, value in given.items() if key != "mechanism"}
+    if isinstance(written, MechanismParameters):
+        return written
+    if isinstance(written, dict) and isinstance(name := written.get("mechanism"), str):
+        values = {key: value for key, value in written.items() if key != "mechanism"}
         return get_mechanism(name, "mechanism").parameters(**values)
-    return read_svsa(given)
+    return read_svsa(written)
 
 
-def _write(given: Any, write_svsa: SerializerFunctionWrapHandler, info: Any) -> Any:
-    is_svsa = isinstance(given, ActuatorParameters)
-    return write_svsa(given) if is_svsa else given.model_dump(mode=info.mode)
+def _write(parameters: Any, write_svsa: SerializerFunctionWrapHandler, info: Any) -> Any:
+    is_svsa = isinstance(parameters, ActuatorParameters)
+    return write_svsa(parameters) if is_svsa else parameters.model_dump(mode=info.mode)
 
 
 InstalledActuator = Annotated[ActuatorParameters, WrapValidator(_read), WrapSerializer(_write)]

@@ -40,11 +40,11 @@ def find_stiffness_range(
         if holds[i] != holds[i + 1]:
             inside, outside = (places[i], places[i + 1]) if holds[i] else (places[i + 1], places[i])
             within.append(_find_end(actuator, domain, torque, inside, outside))
-    found = [
+    stiffnesses = [
         float(compute_stiffness_of(actuator, s, find_deflection(actuator, domain, s, torque)))
         for s in within
     ]
-    return (min(found), max(found)) if found else (math.inf, 0.0)
+    return (min(stiffnesses), max(stiffnesses)) if stiffnesses else (math.inf, 0.0)
 
 
 def _find_end(
