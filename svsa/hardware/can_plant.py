@@ -48,18 +48,18 @@ class CanPlant:
         self._bench, self._clock, self._beats, self._guard = bench, clock, beats, guard
         motors, period = (bench.motor1, bench.motor2), bench.timing.period_s
         self._scales = (build_motor_scale(bench.motor1), build_motor_scale(bench.motor2))
-        one, two = (
+        drive1, drive2 = (
             build_drive(motor, period, motor.speed_max_rad_per_s / abs(scale.angle_per_count))
             for motor, scale in zip(motors, self._scales, strict=True)
         )
-        self._drives = (one, two)
+        self._drives = (drive1, drive2)
         zero = calibration.deflection_zero_counts if calibration else 0
         self._sensing = Sensing(bench, self._drives, self._scales, zero, clock, guard.real)
         self._machine = Machine(bench, guard, list_problems(bench, calibration))
         self._bus: can.BusABC | None = None
         stops = [build_stop(motor) for motor in motors]
         self._resets = merge_stops(*(stop._replace(zero=()) for stop in stops))
-        self._gap_s = max(one.gap_s, two.gap_s)
+        self._gap_s = max(drive1.gap_s, drive2.gap_s)
         self._reset_sent = self._zero_sent = False
         self._stops_known, self._late_s = 0, 0.0
         self.skipped_commands = 0
@@ -167,7 +167,7 @@ class CanPlant:
         self.fail("quick_stop", f"Zero current at once: {reason}.", {})
 
     def clear(self, now: float) -> None:
-        """FAULT → OFF.
+        """Clear the latched fault: the bench changes from FAULT to OFF.
 
         Raises:
             StateError: In any other state.
@@ -222,9 +222,9 @@ class CanPlant:
             if status is BenchStatus.FAULT:
                 self._silence(now)
             elif status is not BenchStatus.OFF:
-                wanted = self._guard.real.split(torque)
+                torques = self._guard.real.split(torque)
                 sent = self._guard.real.join(
-                    Torque(self._send(0, wanted.u1, now), self._send(1, wanted.u2, now))
+                    Torque(self._send(0, torques.u1, now), self._send(1, torques.u2, now))
                 )
         except BUS_TROUBLE as error:
             self._sensing.lost = True

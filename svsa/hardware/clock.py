@@ -90,9 +90,9 @@ class WallClock:
             time.sleep(max(0.0, deadline - time.monotonic()))
             return
         seconds = int(deadline)
-        wanted = _Timespec(seconds, int((deadline - seconds) * 1e9))
+        wake_time = _Timespec(seconds, int((deadline - seconds) * 1e9))
         # A non-zero result means interruption by a signal: sleep again.
-        while self._sleep(_CLOCK_MONOTONIC, _TIMER_ABSTIME, ctypes.byref(wanted), None):
+        while self._sleep(_CLOCK_MONOTONIC, _TIMER_ABSTIME, ctypes.byref(wake_time), None):
             if time.monotonic() >= deadline:
                 return
 
@@ -147,9 +147,9 @@ class LockstepClock:
 
     def wait_until(self, deadline: float) -> None:
         """Let the emulator advance to this time; its frames are stored for `take_frames`."""
-        wanted = round(deadline * 1e6)
-        if wanted > self._now_us:
-            self._now_us = self._advance(wanted)
+        target_us = round(deadline * 1e6)
+        if target_us > self._now_us:
+            self._now_us = self._advance(target_us)
 
     def _advance(self, time_us: int) -> int:
         """Return the time of the emulator, µs, as its echo reports it."""

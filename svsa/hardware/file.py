@@ -158,14 +158,14 @@ class BenchFile(Checked):
 
     def find_missing(self) -> list[str]:
         """List missing values without which the bench cannot be armed."""
-        wanted = {
+        needed = {
             "motor1": ("counts_per_rev", "gear_ratio", "torque_constant_nm_per_a", "efficiency"),
             "motor2": ("counts_per_rev", "gear_ratio", "torque_constant_nm_per_a", "efficiency"),
             "deflection": ("counts_per_rev",),
         }
         return [
             f"{AXIS_WORDS[section]} has no {_WORDS[name]}: {section}.{name} is not given"
-            for section, names in wanted.items()
+            for section, names in needed.items()
             for name in (*names, "sign")
             if getattr(getattr(self, section), name) is None
         ]
@@ -199,12 +199,14 @@ def read_bench(path: Path | str) -> BenchFile:
     if bench.timing.period_s not in PERIODS_S:
         bound = "0.001 or 0.002 s: a drive accepts at most one command per ms"
         raise ParameterError(Violation("timing.period_s", bench.timing.period_s, "s", bound))
-    one, two = bench.motor1, bench.motor2
-    if (one.drive, one.place) == (two.drive, two.place):
-        field = two.address_field
-        violation = Violation(f"motor2.{field}", getattr(two, field), "", "different from motor1's")
+    motor1, motor2 = bench.motor1, bench.motor2
+    if (motor1.drive, motor1.place) == (motor2.drive, motor2.place):
+        field = motor2.address_field
+        violation = Violation(
+            f"motor2.{field}", getattr(motor2, field), "", "different from motor1's"
+        )
         raise ParameterError(violation)
-    for name, motor in (("motor1", one), ("motor2", two)):
+    for name, motor in (("motor1", motor1), ("motor2", motor2)):
         for section in ("bus", "supervisor_bus"):
             bus: BusSettings | None = getattr(bench, section)
             if get_family(motor.drive).needs_fd and bus is not None and not bus.fd:

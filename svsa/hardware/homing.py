@@ -53,9 +53,9 @@ class Homing:
                 Violation("by", by, "", "the name of the user who checked the mark")
             )
         if step != self.next_step:
-            reported = AXIS_WORDS[self.next_step] if self.next_step else "nothing is left"
+            expected = AXIS_WORDS[self.next_step] if self.next_step else "nothing is left"
             raise StateError(
-                f"The next mark to confirm is not that of {AXIS_WORDS[step]}: {reported}."
+                f"The next mark to confirm is not that of {AXIS_WORDS[step]}: {expected}."
             )
         self.confirmed[step] = by
 

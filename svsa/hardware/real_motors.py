@@ -26,9 +26,11 @@ class RealMotors(NamedTuple):
         """Angles of motor 1 and 2, rad, or their velocities, rad/s, from those of the model."""
         return (theta1 + theta2, theta1 - theta2) if self.is_pair else (theta1, theta2)
 
-    def find_coordinates(self, one: float, two: float) -> tuple[float, float]:
+    def find_coordinates(self, angle1: float, angle2: float) -> tuple[float, float]:
         """θ1 and θ2 of the model, rad, from the angles of motor 1 and 2."""
-        return (0.5 * (one + two), 0.5 * (one - two)) if self.is_pair else (one, two)
+        return (
+            (0.5 * (angle1 + angle2), 0.5 * (angle1 - angle2)) if self.is_pair else (angle1, angle2)
+        )
 
     def split(self, u: Torque) -> Torque:
         """Torques of motor 1 and 2 that give u1 and u2 of the model, N·m."""

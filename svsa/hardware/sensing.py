@@ -90,19 +90,19 @@ class Sensing:
         the ages.
         """
         self._drain(bus, now)
-        one, two = self._drives
-        heard1, heard2, heard3 = one.heard_s, two.heard_s, self._read_deflection(now)
+        drive1, drive2 = self._drives
+        heard1, heard2, heard3 = drive1.heard_s, drive2.heard_s, self._read_deflection(now)
         age1 = math.inf if heard1 is None else max(0.0, now - heard1)
         age2 = math.inf if heard2 is None else max(0.0, now - heard2)
         age3 = math.inf if heard3 is None else max(0.0, now - heard3)
         self.ages_s = (age1, age2, age3)
-        self.counts = counts = (one.counts, two.counts, self._deflection.counts)
+        self.counts = counts = (drive1.counts, drive2.counts, self._deflection.counts)
         measurement = None
         if max(self.ages_s) <= self._oldest:
             measurement = self._measure(counts, known)
         self.current_a = (
-            one.current_ma * 1e-3 if age1 <= self._oldest else 0.0,
-            two.current_ma * 1e-3 if age2 <= self._oldest else 0.0,
+            drive1.current_ma * 1e-3 if age1 <= self._oldest else 0.0,
+            drive2.current_ma * 1e-3 if age2 <= self._oldest else 0.0,
         )
         self._measurement = measurement
         return Reading(measurement, self.current_a, self.ages_s, counts)
@@ -110,13 +110,13 @@ class Sensing:
     def _measure(self, counts: tuple[int, int, int], known: State) -> Measurement:
         """Convert the counts to angles of the model at this tick."""
         age1, age2, age3 = self.ages_s
-        one, two = self._real.find_angles(known.theta1, known.theta2)
+        angle1, angle2 = self._real.find_angles(known.theta1, known.theta2)
         # `known` has its velocities at the middle of each age. The ages of a pair differ by a part
         # of a period, which is less than a count.
-        done, dtwo = self._real.find_angles(known.dtheta1, known.dtheta2)
+        velocity1, velocity2 = self._real.find_angles(known.dtheta1, known.dtheta2)
         theta1, theta2 = self._real.find_coordinates(
-            self._bridge(counts[0] * self._angles[0], done, age1, one),
-            self._bridge(counts[1] * self._angles[1], dtwo, age2, two),
+            self._bridge(counts[0] * self._angles[0], velocity1, age1, angle1),
+            self._bridge(counts[1] * self._angles[1], velocity2, age2, angle2),
         )
         turned = (counts[2] - self._zero) * self._deflection_scale
         if self._real.is_pair:
@@ -141,19 +141,19 @@ class Sensing:
         """Return the counts new in this tick; None if one is too old for x̂."""
         if max(self.ages_s) > self._fresh_s:
             return None
-        one, two, three = (
+        counts1, counts2, counts3 = (
             counts if age <= self._new_s else None
             for counts, age in zip(self.counts, self.ages_s, strict=True)
         )
-        return one, two, three
+        return counts1, counts2, counts3
 
     def find_angle(self, step: str) -> float:
         """Return the angle of a homing axis from zero, rad; 0 if unknown."""
         y = self._measurement
         if y is None:
             return 0.0
-        one, two = self._real.find_angles(y.theta1, y.theta2)
-        angles = {"link": y.theta1 + y.phi, "motor1": one, "motor2": two}
+        angle1, angle2 = self._real.find_angles(y.theta1, y.theta2)
+        angles = {"link": y.theta1 + y.phi, "motor1": angle1, "motor2": angle2}
         return angles.get(step, 0.0)
 
     def _drain(self, bus: can.BusABC, now: float) -> None:
@@ -201,13 +201,13 @@ class Sensing:
     def _read_deflection(self, now: float) -> float | None:
         """Return the time of the last deflection reading, and its counts."""
         try:
-            found = self.source.read(now)
+            reading = self.source.read(now)
         except EncoderError as error:
             self._sound("encoder_lost", str(error))
             return self._heard_deflection
-        if found is not None and found[1] != self._heard_deflection:
-            self._deflection.update(found[0])
-            self._heard_deflection = found[1]
+        if reading is not None and reading[1] != self._heard_deflection:
+            self._deflection.update(reading[0])
+            self._heard_deflection = reading[1]
         return self._heard_deflection
 
     def _sound(self, code: str, message: str) -> None:

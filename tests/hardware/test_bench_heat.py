@@ -80,7 +80,7 @@ def hang_paper_load(bench: Bench, process: LoopProcess, memory: LoopMemory, link
     for _ in range(LONGEST_TICKS):
         bench.tick()
         process._note(0.0, 0.0, 0)
-        process._tell()
+        process._report_state()
         messages += link.receive()
         if held is None and memory.fields["is_limited_by_heat"][1]:
             held = bench.now() - begin

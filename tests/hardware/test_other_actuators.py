@@ -188,7 +188,7 @@ def test_constants_that_a_loop_lacks_come_from_another_process_with_its_addresse
     laws.close()
     with pytest.raises(UnpreparedLawError) as lacking:
         laws.bind(configuration, lane, elsewhere)
-    sent = json.loads(json.dumps(lacking.value.wanted))
+    sent = json.loads(json.dumps(lacking.value.arguments))
     laws.add(json.loads(json.dumps(compute_constants(sent))))
     bound, own = laws.bind(configuration, lane, elsewhere), laws.bind(configuration, lane, blocks)
     assert not np.array_equal(bound.nominal, own.nominal)

@@ -124,16 +124,16 @@ def _integrate(values: np.ndarray, time_s: np.ndarray) -> np.ndarray:
 
 
 def _compute_direction(trace: Trace) -> np.ndarray:
-    """sgn ṅ, without a jump at rest."""
+    """Compute the sign of the velocity ṅ, without a jump at rest."""
     n, time, moved = _SLOPE_SAMPLES, trace.time_s, trace.moved
     speed = np.zeros(time.size)
     speed[n:-n] = (moved[2 * n :] - moved[: -2 * n]) / (time[2 * n :] - time[: -2 * n])
     return np.tanh(speed / max(_FADE * float(np.max(np.abs(speed))), 1.0))
 
 
-def _solve(rows: list[np.ndarray], wanted: list[np.ndarray]) -> list[Fitted]:
+def _solve(rows: list[np.ndarray], targets: list[np.ndarray]) -> list[Fitted]:
     """Least squares; the error is infinite if the columns do not determine the values."""
-    a, b = np.concatenate(rows), np.concatenate(wanted)
+    a, b = np.concatenate(rows), np.concatenate(targets)
     # Columns are normalised: their lengths differ by up to ten powers of ten.
     lengths = np.linalg.norm(a, axis=0)
     if b.size <= a.shape[1] or not np.all(lengths > 0.0):

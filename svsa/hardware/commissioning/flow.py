@@ -17,7 +17,7 @@ REST_CURRENT = 0.03
 
 def check_feedback(probe: Probe, traffic: Traffic) -> Iterator[CheckStep]:
     """Check the regularity of each drive's feedback frames."""
-    wanted = 1.0 / probe.bench.timing.period_s
+    expected_rate = 1.0 / probe.bench.timing.period_s
     safety, wiring = probe.bench.safety, describe_wiring(probe.bench)
     for name, drive in probe.drives.items():
         title = f"{name}: feedback"
@@ -34,13 +34,13 @@ def check_feedback(probe: Probe, traffic: Traffic) -> Iterator[CheckStep]:
         gaps = np.diff([frame.stamp_s for frame in heard])
         rate, jitter, longest = len(heard) / LISTEN_S, np.std(gaps), float(np.max(gaps))
         measured = (
-            f"{rate:.0f} frames/s of {wanted:.0f}, jitter {1e3 * jitter:.2f} ms, longest gap"
+            f"{rate:.0f} frames/s of {expected_rate:.0f}, jitter {1e3 * jitter:.2f} ms, longest gap"
             f" {1e3 * longest:.2f} ms"
         )
         if longest > safety.stale_fault_s:
             advice = f"The loop would end in a fault. Frames are lost: {wiring}."
             yield CheckStep(title, Result.FAIL, measured, advice)
-        elif rate < MIN_SHARE * wanted or longest > safety.stale_zero_s:
+        elif rate < MIN_SHARE * expected_rate or longest > safety.stale_zero_s:
             advice = (
                 "The loop would fall to zero torque in the gaps. Remove other traffic from the bus,"
                 " use a faster adapter, and run no other program on this machine."

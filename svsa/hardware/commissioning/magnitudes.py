@@ -111,14 +111,14 @@ def _compare(
     gain_error = math.log(gain / expected) if fit.is_sharp and gain else None
     ratio_error = None
     if link is not None:
-        ratio, wanted = (
+        ratio, expected_ratio = (
             abs(link.ratio.value),
             gear * counts / (bench.deflection.counts_per_rev or 1),
         )
-        ratio_error = math.log(ratio / wanted)
+        ratio_error = math.log(ratio / expected_ratio)
         measured.append(
-            f"{ratio:.3g} counts of motor 1 for each of the deflection, expected {wanted:.3g}"
-            f" (tolerance: factor {RATIO_TOLERANCE:g})"
+            f"{ratio:.3g} counts of motor 1 for each of the deflection, expected"
+            f" {expected_ratio:.3g} (tolerance: factor {RATIO_TOLERANCE:g})"
         )
     if _measure(gain_error, ratio_error) > 1.0:
         advice = _name_causes(bench, name, gain_error, ratio_error)
@@ -139,7 +139,7 @@ def _name_causes(
     bench: BenchFile, motor: str, gain_error: float | None, ratio_error: float | None
 ) -> str:
     """Each field that alone explains both errors, with its expected value."""
-    found: list[tuple[float, str]] = []
+    causes: list[tuple[float, str]] = []
     for cause in list_causes(motor):
         uses_ratio = ratio_error is not None and cause.ratio != 0
         error, power = (ratio_error, cause.ratio) if uses_ratio else (gain_error, cause.gain)
@@ -156,14 +156,14 @@ def _name_causes(
         if left <= 1.0 and (cause.section == "deflection" or least <= value <= most):
             hint = _HINTS.get(cause.field, "")
             change_to = f"{_write(value)}{hint}, not {present:g}"
-            found.append((left, f"{cause.field} in [{cause.section}] to about {change_to}"))
-    if not found:
+            causes.append((left, f"{cause.field} in [{cause.section}] to about {change_to}"))
+    if not causes:
         return (
             "No single value explains this: compare counts_per_rev, gear_ratio,"
             f" torque_constant_nm_per_a and efficiency of [{motor}] with the data sheets,"
             " and the inertia in the [design] file."
         )
-    return f"Set {'; or '.join(text for _, text in sorted(found))}; then run the check again."
+    return f"Set {'; or '.join(text for _, text in sorted(causes))}; then run the check again."
 
 
 def _write(value: float) -> str:
@@ -179,15 +179,15 @@ def _compare_stiffness(bench: BenchFile, actuator: MechanismParameters, link: Li
         advice = "Free the link, remove its loads, and run the check again."
         return CheckStep(title, Result.WARN, "the link's movement shows no stiffness", advice)
     expected, measured = float(compute_stiffness_of(plant, mu, 0.0)), link.stiffness.value * M
-    found = float(compute_coordinate_for_stiffness(plant, measured))
+    coordinate = float(compute_coordinate_for_stiffness(plant, measured))
     words = (
-        f"{measured:.3g} N·m/rad at rest, lever ratio {found:.3f}; expected {expected:.3g} N·m/rad,"
-        f" {mu:.3f} (tolerance: factor {STIFFNESS_TOLERANCE:g})"
+        f"{measured:.3g} N·m/rad at rest, lever ratio {coordinate:.3f}; expected"
+        f" {expected:.3g} N·m/rad, {mu:.3f} (tolerance: factor {STIFFNESS_TOLERANCE:g})"
     )
     if abs(math.log(measured / expected)) > math.log(STIFFNESS_TOLERANCE):
         advice = (
             f"If the stiffness motor is at its zero mark, set lever_ratio in [home] to about"
-            f" {found:.2f}, not {mu:g}; otherwise bring it there. If both are right, correct"
+            f" {coordinate:.2f}, not {mu:g}; otherwise bring it there. If both are right, correct"
             " link_inertia_kg_m2 or spring_stiffness_n_per_m in the [design] file."
         )
         return CheckStep(title, Result.FAIL, words, advice)

@@ -58,38 +58,38 @@ def get_family(name: str) -> "DriveFamily":
 
         family = entry.load()
     except Exception as error:
-        reported = f"{type(error).__name__}: {error}"
+        reason = f"{type(error).__name__}: {error}"
         raise DriveFamilyError(
-            f"The drives {name} of {entry.module} do not load: {reported}"
+            f"The drives {name} of {entry.module} do not load: {reason}"
         ) from None
     if not isinstance(family, DriveFamily) or family.name != name:
         raise DriveFamilyError(f"{entry.value} is not the family of drives {name}.")
     return family
 
 
-def read_motor(given: Any) -> MotorSettings:
+def read_motor(section: Any) -> MotorSettings:
     """A motor's section of a bench file, as the family of its drive describes it."""
-    if isinstance(given, MotorSettings):
-        return given
-    return _read_section(given, lambda family: family.settings)
+    if isinstance(section, MotorSettings):
+        return section
+    return _read_section(section, lambda family: family.settings)
 
 
-def read_emulated_motor(given: Any) -> EmulatedMotor:
+def read_emulated_motor(section: Any) -> EmulatedMotor:
     """A motor's section of an emulator's file, as the family of its drive describes it."""
-    if isinstance(given, EmulatedMotor):
-        return given
-    return _read_section(given, lambda family: family.emulated)
+    if isinstance(section, EmulatedMotor):
+        return section
+    return _read_section(section, lambda family: family.emulated)
 
 
-def _read_section(given: Any, choose: "Callable[[DriveFamily], type[_Section]]") -> _Section:
+def _read_section(section: Any, choose: "Callable[[DriveFamily], type[_Section]]") -> _Section:
     """A section as the family of its drive describes it; names the family of a foreign field."""
-    family = _find_family(given)
+    family = _find_family(section)
     fields = choose(family).model_fields
     foreign = {
         field: name
         for name in list_drive_names()
         for field in choose(get_family(name)).model_fields
-        if field in given and field not in fields
+        if field in section and field not in fields
     }
     if foreign:
         known = ", ".join(list_drive_names())
@@ -97,7 +97,7 @@ def _read_section(given: Any, choose: "Callable[[DriveFamily], type[_Section]]")
             *(
                 Violation(
                     field,
-                    given[field],
+                    section[field],
                     "",
                     f"omitted: it belongs to drive = {name!r}, and drive is {family.name!r}"
                     f" (known drives: {known})",
@@ -105,7 +105,7 @@ def _read_section(given: Any, choose: "Callable[[DriveFamily], type[_Section]]")
                 for field, name in foreign.items()
             )
         )
-    return choose(family)(**given)
+    return choose(family)(**section)
 
 
 def _find_family(section: Any) -> "DriveFamily":

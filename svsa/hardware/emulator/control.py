@@ -79,10 +79,10 @@ class ControlServer:
 def answer(emulator: Emulator, line: bytes) -> dict[str, Any]:
     """Execute one line and return its answer; invalid lines have no effect."""
     try:
-        wanted = json.loads(line)
-        if not isinstance(wanted, dict):
-            raise ParameterError(Violation("command", wanted, "", "an object with named fields"))
-        return {"ok": True, **_do(emulator, wanted)}
+        request = json.loads(line)
+        if not isinstance(request, dict):
+            raise ParameterError(Violation("command", request, "", "an object with named fields"))
+        return {"ok": True, **_do(emulator, request)}
     except ValidationError as error:
         return {"ok": False, "message": str(ParameterError(*explain(error)))}
     # `json.loads` raises RecursionError for deeply nested brackets.
@@ -90,23 +90,23 @@ def answer(emulator: Emulator, line: bytes) -> dict[str, Any]:
         return {"ok": False, "message": str(error)}
 
 
-def _do(emulator: Emulator, wanted: dict[str, Any]) -> dict[str, Any]:
-    at_s = wanted.get("at_s")
+def _do(emulator: Emulator, request: dict[str, Any]) -> dict[str, Any]:
+    at_s = request.get("at_s")
     if at_s is not None and (not isinstance(at_s, int | float) or not 0 <= at_s <= 1e6):
         raise ParameterError(Violation("at_s", at_s, "s", "a time of the emulator from 0 to 1e6 s"))
     at_us = emulator.now_us if at_s is None else round(at_s * 1e6)
     happen: Callable[[], None]
-    match wanted.get("do"):
+    match request.get("do"):
         case "state":
             return describe(emulator)
         case "load":
-            load = _LOAD.validate_python(wanted.get("load"))
+            load = _LOAD.validate_python(request.get("load"))
             happen = lambda: emulator.add_load(load)  # noqa: E731
         case "set_loads":
-            loads = [_LOAD.validate_python(load) for load in wanted.get("loads", [])]
+            loads = [_LOAD.validate_python(load) for load in request.get("loads", [])]
             happen = lambda: emulator.set_loads(loads)  # noqa: E731
         case "fault":
-            fault = _FAULT.validate_python(wanted.get("fault"))
+            fault = _FAULT.validate_python(request.get("fault"))
             happen = lambda: emulator.inject(fault)  # noqa: E731
         case "clear_faults":
             happen = emulator.clear_faults
@@ -164,15 +164,15 @@ class EmulatorControl:
             self._file.write(json.dumps({"do": do, **fields}).encode() + b"\n")
             self._file.flush()
             line = self._file.readline()
-            reported = json.loads(line)
+            answer = json.loads(line)
         except (OSError, ValueError) as error:
             raise EmulatorError(f"The emulator does not answer: {error}.") from None
-        if not reported.pop("ok"):
-            raise EmulatorError(reported["message"])
-        return reported
+        if not answer.pop("ok"):
+            raise EmulatorError(answer["message"])
+        return answer
 
     def set_loads(self, loads: tuple[Load, ...]) -> None:
-        """Set exactly these loads."""
+        """Replace all loads of the emulator by these."""
         self.ask("set_loads", loads=[_LOAD.dump_python(load, mode="json") for load in loads])
 
     def load(self, load: Load, at_s: float | None = None) -> None:

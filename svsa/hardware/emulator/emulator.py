@@ -168,8 +168,8 @@ class Emulator:
 
     def _drive(self) -> None:
         """Set the target torques of the drives' current loops."""
-        one, two = self.drives.values()
-        target = self._motors.join(Torque(one.target_nm, two.target_nm))
+        drive1, drive2 = self.drives.values()
+        target = self._motors.join(Torque(drive1.target_nm, drive2.target_nm))
         self.mechanics.set_target(self.now_us, target)
 
     def _beat_at(self, clock: EmulatorClock, number: int, happen: Callable[[int], None]) -> None:

@@ -43,7 +43,7 @@ class LockstepBench:
     def __init__(
         self,
         emulator: RunningEmulator,
-        wanted: Configuration,
+        request: Configuration,
         ticks: int,
         bench: BenchFile | None = None,
         beats: Heartbeats | None = None,
@@ -55,7 +55,7 @@ class LockstepBench:
         calibration, guard = find_calibration(self.bench), build_guard(self.bench)
         self.plant = CanPlant(self.bench, calibration, self._clock, guard, beats)
         self.plant.open()
-        self.configuration = build_bench_configuration(self.bench, wanted)
+        self.configuration = build_bench_configuration(self.bench, request)
         actuation, mu0 = read_actuation(self.bench), self.bench.home.lever_ratio
         self.loop = BenchLoop(self.plant, actuation, mu0, self.configuration, self.sink)
         self._deadline = self.now()

@@ -54,12 +54,12 @@ def start_emulator(
         if process.stdout is None:
             raise EmulatorError("The emulator has no output.")
         line = process.stdout.readline()
-        found = _READY.search(line)
-        if found is None:
+        match = _READY.search(line)
+        if match is None:
             raise EmulatorError(f"The emulator did not start: {line.strip() or 'no output'}")
-        with EmulatorControl(int(found[4])) as control:
-            port, control_port = int(found[1]), int(found[4])
-            yield RunningEmulator(port, found[2], found[3], control_port, control, process)
+        with EmulatorControl(int(match[4])) as control:
+            port, control_port = int(match[1]), int(match[4])
+            yield RunningEmulator(port, match[2], match[3], control_port, control, process)
     finally:
         process.terminate()
         process.wait(START_S)

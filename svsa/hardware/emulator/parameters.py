@@ -49,21 +49,21 @@ Given = Mapping[str, Any]
 """The fields of `EmulatorParameters` that are known already."""
 
 
-def _choose_home(given: Given) -> float:
+def _choose_home(fields: Given) -> float:
     """The stiffness coordinate at θ2 = 0."""
-    actuator: MechanismParameters = given["actuator"]
+    actuator: MechanismParameters = fields["actuator"]
     mechanism = find_mechanism(actuator)
     is_svsa = mechanism.name == SVSA
     sigma = HOME_STIFFNESS_NM_PER_RAD if is_svsa else choose_stiffness(mechanism)
     return float(compute_coordinate_for_stiffness(build_actuator(actuator, 0.0), sigma))
 
 
-def _choose_stops(given: Given) -> tuple[float, float]:
+def _choose_stops(fields: Given) -> tuple[float, float]:
     """Lower and upper stop of s: outside the domain, and where the energy is described."""
-    mechanism = find_mechanism(given["actuator"])
+    mechanism = find_mechanism(fields["actuator"])
     if mechanism.name == SVSA:
         return 0.25, 0.83
-    domain = build_domain(given["actuator"], mechanism.limits)
+    domain = build_domain(fields["actuator"], mechanism.limits)
     margin = STOP_MARGIN * (domain.mu_max - domain.mu_min)
     low, high = mechanism.coordinate
     return max(low, domain.mu_min - margin), min(high, domain.mu_max + margin)
@@ -103,18 +103,18 @@ def _choose_gear(mechanism: Mechanism) -> float:
     per_ratio = (
         RE50_NM_PER_A * LARGEST_CURRENT_A * float(EmulatedMotor.model_fields["efficiency"].default)
     )
-    return next((one for one in GEAR_RATIOS if one * per_ratio >= torque), GEAR_RATIOS[-1])
+    return next((ratio for ratio in GEAR_RATIOS if ratio * per_ratio >= torque), GEAR_RATIOS[-1])
 
 
-def _choose_friction(given: Given) -> Friction:
+def _choose_friction(fields: Given) -> Friction:
     """Friction in proportion to the torque limits, and enough to hold the preload at home.
 
     Springs that are tensioned at φ = 0 turn the stiffness motor, which has no current before a run
     and must stay at its zero mark.
     """
     friction, of_svsa = Friction(), get_mechanism(SVSA).limits
-    actuator: MechanismParameters = given["actuator"]
-    limits, s = find_mechanism(actuator).limits, given["lever_ratio"]
+    actuator: MechanismParameters = fields["actuator"]
+    limits, s = find_mechanism(actuator).limits, fields["lever_ratio"]
     preload = abs(compute_torques(build_actuator(actuator, s), s, 0.0).reaction)
     scaled = friction.coulomb2_nm * limits.torque2_nm / of_svsa.torque2_nm
     held = HOLDING * preload / friction.static_ratio
@@ -141,24 +141,28 @@ class EmulatorParameters(Checked):
         json_schema_extra={"unit": "1"},
     )
     lever_ratio_min: Number = Field(
-        default_factory=lambda given: _choose_stops(given)[0],
+        default_factory=lambda fields: _choose_stops(fields)[0],
         description="Lower stop of s (of the SVSA of μ)",
         json_schema_extra={"unit": "1"},
     )
     lever_ratio_max: Number = Field(
-        default_factory=lambda given: _choose_stops(given)[1],
+        default_factory=lambda fields: _choose_stops(fields)[1],
         description="Upper stop of s (of the SVSA of μ)",
         json_schema_extra={"unit": "1"},
     )
     deflection_max_rad: Number = Field(
-        default_factory=lambda given: find_mechanism(given["actuator"]).limits.deflection_max_rad,
+        default_factory=lambda fields: find_mechanism(fields["actuator"]).limits.deflection_max_rad,
         description="Stop of |φ|",
         json_schema_extra={"unit": "rad"},
         gt=0,
         le=1.5,
     )
-    motor1: Motor = Field(default_factory=lambda given: build_motor(0, actuator=given["actuator"]))
-    motor2: Motor = Field(default_factory=lambda given: build_motor(1, actuator=given["actuator"]))
+    motor1: Motor = Field(
+        default_factory=lambda fields: build_motor(0, actuator=fields["actuator"])
+    )
+    motor2: Motor = Field(
+        default_factory=lambda fields: build_motor(1, actuator=fields["actuator"])
+    )
     deflection: EmulatedDeflection = EmulatedDeflection(phase_s=0.0008)
     current_lag: CurrentLag | None = quantity("", "Lag of the current loops", default=CurrentLag())
     friction: Friction | None = Field(
@@ -178,11 +182,11 @@ class EmulatorParameters(Checked):
         if not mechanism.has_stiffness_motor:
             bound = "an actuator with two motors: a bench has two drives"
             raise ParameterError(Violation("actuator.mechanism", mechanism.name, "", bound))
-        one, two = self.motor1, self.motor2
-        if (one.drive, one.place) == (two.drive, two.place):
-            name = two.address_field
+        motor1, motor2 = self.motor1, self.motor2
+        if (motor1.drive, motor1.place) == (motor2.drive, motor2.place):
+            name = motor2.address_field
             bound = "different from motor1's"
-            raise ParameterError(Violation(f"motor2.{name}", getattr(two, name), "", bound))
+            raise ParameterError(Violation(f"motor2.{name}", getattr(motor2, name), "", bound))
         return self
 
 

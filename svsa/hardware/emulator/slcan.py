@@ -55,7 +55,7 @@ class SlcanServer:
         return int(bool(self._channel))
 
     def sources(self) -> list[int]:
-        """The terminal."""
+        """File descriptors to select on: that of the terminal."""
         return [self._ours]
 
     def wait_s(self) -> float | None:

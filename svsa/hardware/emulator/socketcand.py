@@ -60,7 +60,7 @@ class SocketcandServer:
         return sum(client.listening for client in self._clients)
 
     def sources(self) -> list[socket.socket]:
-        """The listener and every client."""
+        """Sockets to select on: the listener and every client."""
         return [self._listener, *(client.connection for client in self._clients)]
 
     def wait_s(self) -> float | None:

@@ -39,16 +39,16 @@ def read_bench_design(bench: BenchFile) -> Design:
         ParameterError: The actuator is not installed, is not that of the file, has no stiffness
             motor, or has not the stiffness coordinate of the zero mark in its range.
     """
-    given, design = bench.design, load_prototype()
-    if given.file:
-        design = read_design(given.file)
-    elif given.actuator:
-        fields = read_mechanism(given.actuator, "design.actuator")
+    section, design = bench.design, load_prototype()
+    if section.file:
+        design = read_design(section.file)
+    elif section.actuator:
+        fields = read_mechanism(section.actuator, "design.actuator")
         design = design.changed(**{name: fields[name] for name in fields if name != "stiffness"})
     name = get_mechanism_name(design.actuator)
-    if given.actuator not in (None, name):
-        bound = f"{name}, the actuator of {given.file}, or omitted"
-        raise ParameterError(Violation("design.actuator", given.actuator, "", bound))
+    if section.actuator not in (None, name):
+        bound = f"{name}, the actuator of {section.file}, or omitted"
+        raise ParameterError(Violation("design.actuator", section.actuator, "", bound))
     if not find_mechanism(design.actuator).has_stiffness_motor:
         bound = "an actuator with two motors: a bench has two drives"
         raise ParameterError(Violation("design.actuator", name, "", bound))
@@ -61,19 +61,19 @@ def read_bench_design(bench: BenchFile) -> Design:
     return design.changed(sampling=sampling)
 
 
-def build_bench_configuration(bench: BenchFile, wanted: Configuration) -> Configuration:
-    """Build the configuration of a bench with `wanted` (law, references, loads) and its simulated
+def build_bench_configuration(bench: BenchFile, request: Configuration) -> Configuration:
+    """Build the configuration of a bench with `request` (law, references, loads) and its simulated
     twin as comparison.
 
     The twin has the known properties of the bench: counts, estimated velocities, one sample of
     delay and the lag of the current loop.
 
     Raises:
-        ParameterError: `wanted` is of another actuator than the bench, or its stiffness is out of
+        ParameterError: `request` is of another actuator than the bench, or its stiffness is out of
             range.
     """
     design = read_bench_design(bench)
-    mechanism, other = map(get_mechanism_name, (design.actuator, wanted.actuator))
+    mechanism, other = map(get_mechanism_name, (design.actuator, request.actuator))
     if other != mechanism:
         bound = f"{mechanism}, the actuator of this bench"
         raise ParameterError(Violation("actuator.mechanism", other, "", bound))
@@ -92,15 +92,15 @@ def build_bench_configuration(bench: BenchFile, wanted: Configuration) -> Config
         delay_samples=1,
         current_lag=CurrentLag(time_constant_s=lag) if lag else None,
     )
-    parameters = {**design.parameters, **wanted.parameters}
+    parameters = {**design.parameters, **request.parameters}
     return Configuration(
         **dict(design.changed(parameters=parameters)),
-        law=wanted.law,
-        comparisons=(Lane(law=wanted.law),),
+        law=request.law,
+        comparisons=(Lane(law=request.law),),
         effects=effects,
-        position=wanted.position,
-        stiffness=wanted.stiffness,
-        loads=wanted.loads,
+        position=request.position,
+        stiffness=request.stiffness,
+        loads=request.loads,
     )
 
 

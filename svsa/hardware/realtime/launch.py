@@ -159,7 +159,7 @@ class BenchProcesses:
         """Whether the loop takes requests: its process runs and ticks."""
         return self.alive and self.silence_s <= self.patience_s
 
-    def request(self, wanted: str, argument: Any = None) -> dict[str, Any]:
+    def request(self, action: str, argument: Any = None) -> dict[str, Any]:
         """Send a request for the loop to execute between two ticks, and wait for its answer.
 
         Requests that wait at the same time are answered in order; a command that arrives too late
@@ -175,7 +175,7 @@ class BenchProcesses:
         # and a late command would contradict it.
         until = time.monotonic() + self.patience_s
         try:
-            number = self._send(wanted, argument, until)
+            number = self._send(action, argument, until)
             self._waiting.append(number)
             try:
                 while time.monotonic() < until:
@@ -190,11 +190,11 @@ class BenchProcesses:
             raise BenchError(self._describe_silence()) from None
         raise BenchError(f"The loop of the bench did not answer within {self.patience_s:g} s.")
 
-    def report(self, wanted: str, argument: Any = None) -> None:
+    def report(self, action: str, argument: Any = None) -> None:
         """Send a request as `request`, without waiting for its answer."""
         if self.listens:
             with contextlib.suppress(LinkClosedError):
-                self._send(wanted, argument, time.monotonic() + self.patience_s)
+                self._send(action, argument, time.monotonic() + self.patience_s)
 
     def _describe_silence(self) -> str:
         what = "has been silent" if self.alive else "ended; it has been silent"
@@ -203,9 +203,9 @@ class BenchProcesses:
             " Restart it."
         )
 
-    def _send(self, wanted: str, argument: Any, until: float) -> int:
+    def _send(self, action: str, argument: Any, until: float) -> int:
         self._number += 1
-        message = {"number": self._number, "do": wanted, "argument": argument, "until": until}
+        message = {"number": self._number, "do": action, "argument": argument, "until": until}
         self._link.send(message)
         return self._number
 

@@ -82,5 +82,5 @@ class Link:
 
 def build_links() -> tuple[Link, Link]:
     """Both ends of a new link."""
-    one, other = socket.socketpair()
-    return Link(one), Link(other)
+    own, other = socket.socketpair()
+    return Link(own), Link(other)

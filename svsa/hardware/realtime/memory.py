@@ -95,7 +95,7 @@ class LoopMemory:
         return self._rows[tick % CAPACITY_TICKS]
 
     def commit(self, tick: int) -> None:
-        """The row of this tick is written."""
+        """Publish the row of this tick as complete."""
         self.fields["end_tick"] = tick + 1
 
     def skip(self, first: int, ticks: int) -> None:
@@ -147,7 +147,7 @@ class SampleArray:
         return self.samples[tick] if tick < len(self.samples) else np.empty(len(CHANNELS))
 
     def commit(self, tick: int) -> None:
-        """The row of this tick is written."""
+        """Publish the row of this tick as complete."""
         self.done = min(tick + 1, len(self.samples))
 
     def skip(self, first: int, ticks: int) -> None:

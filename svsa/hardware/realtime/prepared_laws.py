@@ -39,10 +39,11 @@ class UnpreparedLawError(StateError):
         wanted: Arguments of `compute_constants`, as JSON values.
     """
 
-    def __init__(self, wanted: dict[str, Any]) -> None:
-        self.wanted = wanted
+    def __init__(self, arguments: dict[str, Any]) -> None:
+        self.arguments = arguments
         super().__init__(
-            f"The law {wanted['law']} is not prepared for its parameters: give the command again."
+            f"The law {arguments['law']} is not prepared for its parameters: send the"
+            " command again."
         )
 
 
@@ -87,9 +88,9 @@ class PreparedLaws:
         # drops the first entry.
         bound = self._bound.pop(key, None)
         if bound is None and self._is_closed:
-            wanted = dict(zip(_KEY, key, strict=True))
+            arguments = dict(zip(_KEY, key, strict=True))
             mechanism = get_mechanism_name(configuration.nominal)
-            raise UnpreparedLawError({**wanted, "mechanism": mechanism})
+            raise UnpreparedLawError({**arguments, "mechanism": mechanism})
         self._keep(key, bound or self._load(lane.law, parameters, setting))
         return self._bound[key]
 
@@ -129,34 +130,34 @@ class PreparedLaws:
             del self._bound[next(iter(self._bound))]
 
 
-def compute_constants(wanted: dict[str, Any]) -> dict[str, Any]:
+def compute_constants(arguments: dict[str, Any]) -> dict[str, Any]:
     """Compute the constants of a law that a loop lacks, outside the loop's process.
 
     Args:
-        wanted: `wanted` of an `UnpreparedLawError`.
+        arguments: `arguments` of an `UnpreparedLawError`.
 
     Returns:
-        `wanted` with the constants, for `PreparedLaws.add`.
+        `arguments` with the constants, for `PreparedLaws.add`.
 
     Raises:
         LawError: If the code of the law fails.
     """
-    law, setting = get_law(wanted["law"]), _use_own_addresses(wanted)
-    parameters = law.parameters(**json.loads(wanted["parameters"]))
+    law, setting = get_law(arguments["law"]), _use_own_addresses(arguments)
+    parameters = law.parameters(**json.loads(arguments["parameters"]))
     constants = law.pack_constants(parameters, setting)
     layout = _describe_layout(pack(setting.nominal), constants)
-    return {**wanted, "layout": layout, "constants": constants.view(np.uint64).tolist()}
+    return {**arguments, "layout": layout, "constants": constants.view(np.uint64).tolist()}
 
 
-def _read_setting(wanted: dict[str, Any]) -> Setting:
-    nominal, domain, *others = wanted["setting"]
-    kind: Any = Actuator if wanted["mechanism"] == SVSA else ElasticActuator
+def _read_setting(arguments: dict[str, Any]) -> Setting:
+    nominal, domain, *others = arguments["setting"]
+    kind: Any = Actuator if arguments["mechanism"] == SVSA else ElasticActuator
     return Setting(kind(*nominal), Domain(*domain), *others)
 
 
-def _use_own_addresses(wanted: dict[str, Any]) -> Setting:
+def _use_own_addresses(arguments: dict[str, Any]) -> Setting:
     """Read the setting for this process: the addresses of an energy are those of the loop's."""
-    setting, mechanism = _read_setting(wanted), wanted["mechanism"]
+    setting, mechanism = _read_setting(arguments), arguments["mechanism"]
     if mechanism == SVSA:
         return setting
     own = compile_energy(get_mechanism(mechanism)).addresses

@@ -90,7 +90,7 @@ class LoopProcess:
                 self._plant.quick_stop(begin, "quick stop")
             # After the tick: a command must not delay the torque.
             self._listen()
-            self._tell()
+            self._report_state()
 
     def _note(self, lateness: float, cost: float, missed: int) -> None:
         """Publish the timing of this tick and the readings for the server."""
@@ -139,13 +139,13 @@ class LoopProcess:
             violations = to_jsonable_python(error.violations, fallback=repr)
             return {"refused": str(error), "violations": violations}
         except UnpreparedLawError as error:
-            return {"refused": str(error), "unprepared": error.wanted}
+            return {"refused": str(error), "unprepared": error.arguments}
         except SvsaError as error:
             return {"refused": str(error)}
 
-    def _do(self, wanted: str, argument: Any) -> dict[str, Any]:
+    def _do(self, action: str, argument: Any) -> dict[str, Any]:
         now, loop, plant = self._clock.now(), self._loop, self._plant
-        match wanted:
+        match action:
             case "change":
                 return {"tick": loop.change(read_command(argument))}
             case "load":
@@ -159,8 +159,8 @@ class LoopProcess:
                 plant.arm(now)
             case "start":
                 start = loop.start(now)
-                reported = {"mu0": start.mu0, "x": start.x, "run": loop.number}
-                return reported | {"motion": loop.read_motion()}
+                report = {"mu0": start.mu0, "x": start.x, "run": loop.number}
+                return report | {"motion": loop.read_motion()}
             case "stop":
                 plant.stop(now, argument)
             case "quick_stop":
@@ -173,10 +173,10 @@ class LoopProcess:
                 self._ending = True
                 self._stop("the server ends")
             case _:
-                raise ParameterError(Violation("do", wanted, "", "a command of the loop"))
+                raise ParameterError(Violation("do", action, "", "a command of the loop"))
         return {}
 
-    def _tell(self) -> None:
+    def _report_state(self) -> None:
         """Report changes of the bench's state."""
         plant = self._plant
         limited = [motor.name for motor in plant.motors if motor.heat_reduction is not None]

@@ -180,12 +180,12 @@ class Guard:
 
     def limit(self, limited: Torque, known: State) -> Torque:
         """Return the permitted part of `limited`, N·m."""
-        wanted = self.real.split(limited)
-        one, two = self.real.find_angles(known.theta1, known.theta2)
+        torques = self.real.split(limited)
+        angle1, angle2 = self.real.find_angles(known.theta1, known.theta2)
         return self.real.join(
             Torque(
-                self.motor1.limit(wanted.u1, one, self._period),
-                self.motor2.limit(wanted.u2, two, self._period),
+                self.motor1.limit(torques.u1, angle1, self._period),
+                self.motor2.limit(torques.u2, angle2, self._period),
             )
         )
 
@@ -230,10 +230,12 @@ class Guard:
 
     def check_motion(self, known: State) -> Alarm | None:
         """Which limit of position or speed is exceeded, or None; holds without torque as well."""
-        one, two = self.real.find_angles(known.theta1, known.theta2)
-        done, dtwo = self.real.find_angles(known.dtheta1, known.dtheta2)
+        angle1, angle2 = self.real.find_angles(known.theta1, known.theta2)
+        velocity1, velocity2 = self.real.find_angles(known.dtheta1, known.dtheta2)
         return (
-            self.motor1.check(one, done) or self.motor2.check(two, dtwo) or self._check_link(known)
+            self.motor1.check(angle1, velocity1)
+            or self.motor2.check(angle2, velocity2)
+            or self._check_link(known)
         )
 
     def begin(self) -> None:

@@ -18,7 +18,7 @@ def compute_lasting_torque(motor: MotorSettings) -> float:
 
 
 def _compute_scale(motor: MotorSettings) -> float:
-    """|τ| at the output for 1 A, N·m."""
+    """Compute the torque |τ| at the output for a current of 1 A, N·m."""
     return abs(build_motor_scale(motor).torque_per_ma) * 1000.0
 
 

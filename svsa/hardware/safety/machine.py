@@ -136,7 +136,7 @@ class Machine:
             self.status = BenchStatus.RAMP
 
     def clear(self) -> None:
-        """FAULT → OFF.
+        """Clear the latched fault: the bench changes from FAULT to OFF.
 
         Raises:
             StateError: In any other state.

@@ -69,24 +69,24 @@ class BenchReport:
 
     def check_for_stop(self, states: list[dict[str, Any]]) -> None:
         """Start a window at a ramp, before its first sample is read."""
-        ramps = any(reported["status"] == BenchStatus.RAMP for reported in states)
+        ramps = any(state["status"] == BenchStatus.RAMP for state in states)
         if ramps and self.loop_status is BenchStatus.RUN:
             self._journal.begin_stop()
 
     def take(self, states: list[dict[str, Any]]) -> None:
         """Apply the reports of the loop in order."""
-        for reported in states:
-            self.problems, self.homing_step = reported["problems"], reported["homing_step"]
+        for state in states:
+            self.problems, self.homing_step = state["problems"], state["homing_step"]
             self._heat.log(
-                reported["limited_by_heat"],
-                BenchStatus(reported["status"]) in MOVING,
+                state["limited_by_heat"],
+                BenchStatus(state["status"]) in MOVING,
                 self._journal,
             )
-            if reported["fault"] is None:
+            if state["fault"] is None:
                 self._latch.clear_reported()
-            elif self._latch.take(Fault(**reported["fault"])):
+            elif self._latch.take(Fault(**state["fault"])):
                 self._log_fault()
-            self.loop_status = BenchStatus(reported["status"])
+            self.loop_status = BenchStatus(state["status"])
             self._journal.version += 1
 
     def check_for_loss(self) -> None:

@@ -53,7 +53,7 @@ class BenchSession:
         self,
         name: str,
         path: Path,
-        wanted: Configuration,
+        request: Configuration,
         operator: Operator | None = None,
         rest: Rest = time.sleep,
     ) -> None:
@@ -64,7 +64,7 @@ class BenchSession:
         self.calibration = find_calibration(self.bench)
         self._unwatched_since = 0.0
         self.loop = SupervisedLoop(path, self.bench, rest)
-        configuration = build_bench_configuration(self.bench, wanted)
+        configuration = build_bench_configuration(self.bench, request)
         self.loop.launch(configuration)
         self._run = self._build_still_run(configuration)
         self.journal = Journal(self._run, is_bench=True, hang=self._operator.hang)
@@ -241,8 +241,8 @@ class BenchSession:
                 self.journal.stop_recording()
             else:
                 recorder.write_fault(None)
-                mu0, motion, given = answer["mu0"], answer["motion"], len(self.journal.commands)
-                recorder.write_start(describe_start(self.bench, mu0, motion, given))
+                mu0, motion, count = answer["mu0"], answer["motion"], len(self.journal.commands)
+                recorder.write_start(describe_start(self.bench, mu0, motion, count))
         self._begin(BenchRun(self.run.configuration, start, self.loop.memory))
 
     def pause(self) -> None:
@@ -287,11 +287,11 @@ class BenchSession:
         if self.loop.starting:
             return
         self.loop.processes.beats.beat("server")
-        reported = self.loop.take_states()
-        self.report.check_for_stop(reported)
+        states = self.loop.take_states()
+        self.report.check_for_stop(states)
         if not self._commands.is_pending:
             self.journal.advance(self._run.count_ready())
-        self.report.take(reported)
+        self.report.take(states)
         self.report.check_for_loss()
         if self.watched or self.bench_status is not BenchStatus.RUN:
             self._unwatched_since = now
@@ -299,12 +299,12 @@ class BenchSession:
             self._unwatched_since = now
             self.loop.processes.report("stop", "no client watches")
 
-    def _ask(self, wanted: str, argument: object = None) -> dict[str, Any]:
+    def _ask(self, action: str, argument: object = None) -> dict[str, Any]:
         """Send a request to the loop; its state is up to date on return."""
-        answer = self.loop.ask(wanted, argument)
-        reported = self.loop.take_states()
-        self.report.check_for_stop(reported)
-        self.report.take(reported)
+        answer = self.loop.ask(action, argument)
+        states = self.loop.take_states()
+        self.report.check_for_stop(states)
+        self.report.take(states)
         return answer
 
     def change(self, command: Command) -> Command:

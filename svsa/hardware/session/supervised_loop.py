@@ -121,7 +121,7 @@ class SupervisedLoop:
                 f" {self.processes.age_s:.0f} s): repeat the request when it is ready."
             )
 
-    def ask(self, wanted: str, argument: object = None) -> dict[str, Any]:
+    def ask(self, action: str, argument: object = None) -> dict[str, Any]:
         """Send a request to the loop, and wait for its answer.
 
         Constants of a law that the loop lacks are computed here, because the loop has no time for
@@ -131,10 +131,10 @@ class SupervisedLoop:
         # The constants of several lanes' laws may be missing; the loop reports one at a time.
         for _ in range(MAX_LANES):
             try:
-                return self.processes.request(wanted, argument)
+                return self.processes.request(action, argument)
             except UnpreparedLawError as lacking:
-                self.processes.request("prepare", compute_constants(lacking.wanted))
-        return self.processes.request(wanted, argument)
+                self.processes.request("prepare", compute_constants(lacking.arguments))
+        return self.processes.request(action, argument)
 
     def take_states(self) -> list[dict[str, Any]]:
         """Return the states reported since the last call."""

@@ -101,7 +101,7 @@ def decode_reply(data: bytes | bytearray) -> Reply | None:
     """The values that `QUERY` reads; None for any other frame."""
     if len(data) < _REPLY.size:
         return None
-    one, mode, two, position, three, current, four, fault = _REPLY.unpack_from(data)
-    if (one, two, three, four) != _HEADERS:
+    header1, mode, header2, position, header3, current, header4, fault = _REPLY.unpack_from(data)
+    if (header1, header2, header3, header4) != _HEADERS:
         return None
     return Reply(mode, position, current, fault)

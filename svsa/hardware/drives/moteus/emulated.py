@@ -37,7 +37,7 @@ _UNITS: dict[int, tuple[float, float, float]] = {
 
 
 class _Subframe(NamedTuple):
-    """A subframe.
+    """A read or write of consecutive registers in a frame.
 
     Attributes:
         kind: `_WRITE` or `_READ`.
@@ -137,22 +137,20 @@ class EmulatedMoteusDrive(EmulatedDrive):
         self._hold(0, time_us)
         return True
 
-    def _read(self, wanted: _Subframe, motion: Motion) -> bytes:
+    def _read(self, query: _Subframe, motion: Motion) -> bytes:
         values = {
             Register.MODE: self.mode,
             Register.POSITION: self.counts / self.motor.counts_per_rev,
             Register.Q_CURRENT: self.compute_current_ma(motion.torque) / 1000.0,
             Register.FAULT: DRIVER_FAULT if self.stalled else 0,
         }
-        registers = range(wanted.start, wanted.start + wanted.registers)
+        registers = range(query.start, query.start + query.registers)
         unknown = [register for register in registers if register not in values]
         if unknown:
             return bytes((_READ_ERROR, *_write_varuint(unknown[0]), _UNKNOWN_REGISTER))
-        data = bytes(
-            (_ANSWER | wanted.width << 2 | wanted.registers, *_write_varuint(wanted.start))
-        )
+        data = bytes((_ANSWER | query.width << 2 | query.registers, *_write_varuint(query.start)))
         for register in registers:
-            data += _pack(values[Register(register)], register, wanted.width)
+            data += _pack(values[Register(register)], register, query.width)
         return data
 
 

@@ -116,7 +116,7 @@ class EmulatedRoboModuleDrive(EmulatedDrive):
         return frames
 
     def build_feedback(self, motion: Motion) -> Frame:
-        """Frame B."""
+        """Build the feedback message, frame B of the manual."""
         current = round(self.compute_current_ma(motion.torque))
         rpm = self.encoder_sign * motion.velocity * self.motor.gear_ratio * 30.0 / math.pi
         steps = VELOCITY_STEP_RPM * math.floor(rpm / VELOCITY_STEP_RPM + 0.5)
@@ -127,7 +127,7 @@ class EmulatedRoboModuleDrive(EmulatedDrive):
         return Frame(self._ids[Command.FEEDBACK], encode(message))
 
     def build_error(self) -> Frame:
-        """Frame D: stall protection."""
+        """Build the error message of the stall protection, frame D of the manual."""
         return Frame(self._ids[Command.ERROR], encode(DriveError(STALL_PROTECTION)))
 
 
