@@ -82,26 +82,26 @@ class _Awaited:
 
     def __getattr__(self, name: str) -> Any:
         kind = type(self._blocking)
-        found = getattr(kind, name, None)
+        attribute = getattr(kind, name, None)
         if name.startswith("_") or not hasattr(kind, name):
             raise AttributeError(f"{type(self).__name__} has no attribute {name!r}.", name=name)
-        if isinstance(found, property):
-            reported = f"{name!r} is asked of the lab: await it, as {_describe_read(kind, name)}."
-            raise AttributeError(reported, name=name)
+        if isinstance(attribute, property):
+            message = f"{name!r} is asked of the lab: await it, as {_describe_read(kind, name)}."
+            raise AttributeError(message, name=name)
         value = getattr(self._blocking, name)
         if not callable(value):
             return wrap(value)
         if name in IMMEDIATE:
-            return lambda *given, **named: wrap(value(*given, **named))
-        return lambda *given, **named: Pending(partial(value, *given, **named))
+            return lambda *arguments, **named: wrap(value(*arguments, **named))
+        return lambda *arguments, **named: Pending(partial(value, *arguments, **named))
 
     def __setattr__(self, name: str, value: Any) -> None:
         """Raise `AttributeError`: attributes cannot be set without await."""
         hint = ""
         if is_settable(type(self._blocking), name):
             hint = f" Set it with: await session.set({name}=…)."
-        reported = f"{name!r} of {type(self).__name__} cannot be set.{hint}"
-        raise AttributeError(reported, name=name, obj=self)
+        message = f"{name!r} of {type(self).__name__} cannot be set.{hint}"
+        raise AttributeError(message, name=name, obj=self)
 
     def __dir__(self) -> list[str]:
         return sorted({*super().__dir__(), *dir(self._blocking)})
@@ -113,8 +113,8 @@ class _Awaited:
         await asyncio.to_thread(self._blocking.__exit__, None, None, None)
 
     async def __aiter__(self) -> AsyncIterator[Any]:
-        for one in await asyncio.to_thread(list, self._blocking):
-            yield wrap(one)
+        for element in await asyncio.to_thread(list, self._blocking):
+            yield wrap(element)
 
 
 def _describe_read(kind: type, name: str) -> str:

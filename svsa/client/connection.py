@@ -42,28 +42,28 @@ _BY_KIND: dict[str, type[SvsaError]] = {
 _BY_STATUS = {401: AccessError, 403: AccessError}
 
 
-def build_refusal(status: int, reported: Any) -> SvsaError:
-    """Build the error of a status; `reported` is its body, a problem (RFC 9457) or any other value.
+def build_refusal(status: int, body: Any) -> SvsaError:
+    """Build the error of a status; `body` is a problem (RFC 9457) or any other value.
 
     A rejected value is a `ParameterError` with name, value, unit and bound, as in `simulate`.
     """
-    if not isinstance(reported, dict):
+    if not isinstance(body, dict):
         return _BY_STATUS.get(status, LabError)(f"The lab answered {status}.")
-    detail = str(reported.get("detail", f"The lab answered {status}."))
-    if violations := reported.get("violations"):
+    detail = str(body.get("detail", f"The lab answered {status}."))
+    if violations := body.get("violations"):
         return ParameterError(*map(_read_violation, violations))
-    kind = _read_kind(reported)
+    kind = _read_kind(body)
     return _BY_KIND.get(kind, _BY_STATUS.get(status, LabError))(detail)
 
 
-def _read_kind(reported: Any) -> str:
+def _read_kind(body: Any) -> str:
     """Return the kind of a problem, such as `not_now`; empty if the body is none."""
-    return str(reported.get("type")).rpartition(":")[2] if isinstance(reported, dict) else ""
+    return str(body.get("type")).rpartition(":")[2] if isinstance(body, dict) else ""
 
 
-def _read_violation(reported: dict[str, Any]) -> Violation:
+def _read_violation(fields: dict[str, Any]) -> Violation:
     names = ("name", "value", "unit", "bound", "limits", "finding")
-    return Violation(**{name: reported[name] for name in names})
+    return Violation(**{name: fields[name] for name in names})
 
 
 API = "/api/v1"
@@ -148,13 +148,13 @@ class Connection:
                 continue
             if answer.is_success:
                 return answer
-            reported = _read_json(answer)
-            is_pending = answer.status_code == 409 and _read_kind(reported) == "key_pending"
+            problem = _read_json(answer)
+            is_pending = answer.status_code == 409 and _read_kind(problem) == "key_pending"
             is_busy = answer.status_code in (429, 503)
             if (is_pending or is_busy) and time.monotonic() < until:
                 time.sleep(float(answer.headers.get("Retry-After", PAUSE_S)))
                 continue
-            raise build_refusal(answer.status_code, reported)
+            raise build_refusal(answer.status_code, problem)
 
     def _check_repeatable(self, key: str, what: str, begun: float, until: float) -> None:
         """Return when the lab answers again and a repeat cannot be executed twice.
@@ -189,10 +189,10 @@ class Connection:
             answer = self._http.get(f"/requests/{name}")
         except httpx.TransportError:
             return None
-        reported = _read_json(answer)
+        outcome = _read_json(answer)
         if answer.status_code in (401, 403):
-            raise build_refusal(answer.status_code, reported)
-        return reported if answer.is_success else None
+            raise build_refusal(answer.status_code, outcome)
+        return outcome if answer.is_success else None
 
 
 def _read_json(answer: httpx.Response) -> Any:
@@ -218,16 +218,18 @@ class Remote:
         except AttributeError as error:
             if hasattr(type(self), name):
                 raise
-            settable = [one for one in dir(type(self)) if is_settable(type(self), one)]
+            settable = [
+                attribute for attribute in dir(type(self)) if is_settable(type(self), attribute)
+            ]
             hint = suggest(name, settable)
-            reported = f"{type(self).__name__} has no attribute {name!r}{hint}."
-            raise AttributeError(reported, name=name, obj=self) from error
+            message = f"{type(self).__name__} has no attribute {name!r}{hint}."
+            raise AttributeError(message, name=name, obj=self) from error
 
 
 def is_settable(kind: type, name: str) -> bool:
     """Whether a class has a property of this name that can be set."""
-    found = getattr(kind, name, None)
-    return isinstance(found, property) and found.fset is not None
+    attribute = getattr(kind, name, None)
+    return isinstance(attribute, property) and attribute.fset is not None
 
 
 @dataclass(frozen=True)

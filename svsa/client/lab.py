@@ -88,7 +88,7 @@ class Lab(Remote):
     @property
     def actuators(self) -> tuple[str, ...]:
         """Names of the actuators that are installed there, the SVSA first."""
-        return tuple(one["name"] for one in self.connection.read("/actuators"))
+        return tuple(actuator["name"] for actuator in self.connection.read("/actuators"))
 
     @property
     def laws(self) -> tuple[str, ...]:
@@ -131,13 +131,13 @@ class Lab(Remote):
         Raises:
             LabError: If the lab rejects the request.
         """
-        wanted = _write_experiment(figure, law, settings)
-        given = {"actuator": actuator, "arm": arm}
-        for source, name in given.items():
+        request = _write_experiment(figure, law, settings)
+        sources = {"actuator": actuator, "arm": arm}
+        for source, name in sources.items():
             if name is not None:
-                wanted.pop("figure", None)
-                wanted |= {"from": source, source: name}
-        state = self.connection.call("POST", "/sessions", wanted)
+                request.pop("figure", None)
+                request |= {"from": source, source: name}
+        state = self.connection.call("POST", "/sessions", request)
         return self.open_session(state["session"])
 
     @contextmanager
@@ -185,8 +185,8 @@ class Lab(Remote):
         session.take_control()
         try:
             session.come_to_rest()
-            wanted = _write_experiment(figure, law, settings) | {"start": False}
-            session.call("POST", "/experiment", wanted)
+            request = _write_experiment(figure, law, settings) | {"start": False}
+            session.call("POST", "/experiment", request)
             with session.watch():
                 yield session
                 session.come_to_rest()
@@ -245,25 +245,28 @@ class Lab(Remote):
             experiment = experiment.build_configuration()
         named = {} if law is None else {"law": law}
         keywords = inspect.signature(self.run).parameters
-        wanted = change_configuration(experiment, {**changes, **named}, keywords)
-        period = wanted.sampling.period_s
+        configuration = change_configuration(experiment, {**changes, **named}, keywords)
+        period = configuration.sampling.period_s
         check_number("duration_s", duration_s, "s", period, MAX_TICKS * period)
-        comparisons = [dump_lane(lane) for lane in wanted.comparisons]
+        comparisons = [dump_lane(lane) for lane in configuration.comparisons]
         with self.new_session(
-            law=AnyLaw(wanted.law), load=False, comparisons=comparisons, seed=wanted.seed
+            law=AnyLaw(configuration.law),
+            load=False,
+            comparisons=comparisons,
+            seed=configuration.seed,
         ) as session:
             session.pause()
-            _check_fixed(session, wanted)
+            _check_fixed(session, configuration)
             for setting in _SET_ALONE:
-                setattr(session, setting, getattr(wanted, setting))
-            for owner, parameters in wanted.parameters.items():
+                setattr(session, setting, getattr(configuration, setting))
+            for owner, parameters in configuration.parameters.items():
                 session.set_parameters(owner, **parameters.model_dump(mode="json"))
             session.reset()
-            for load in wanted.loads:
+            for load in configuration.loads:
                 session.loads.add(load)
             recording = session.record(name)
             try:
-                for change in sorted(commands, key=lambda one: one.at_s):
+                for change in sorted(commands, key=lambda change: change.at_s):
                     check_number("at_s", change.at_s, "s", 0.0, duration_s)
                     session.run_until(change.at_s)
                     _give(session, change)
@@ -287,19 +290,21 @@ def _write_experiment(figure: str, law: str, settings: Mapping[str, Any]) -> dic
     return written
 
 
-def _check_fixed(session: RemoteSession, wanted: Configuration) -> None:
+def _check_fixed(session: RemoteSession, configuration: Configuration) -> None:
     """Raise `ParameterError` if a run has limits or a period that the lab does not have."""
     state = session.read_state()
-    limits = wanted.limits.model_dump(mode="json")
+    limits = configuration.limits.model_dump(mode="json")
     for name, value in state["configuration"]["limits"].items():
         if value != limits[name]:
             raise ParameterError(
                 Violation(f"limits.{name}", limits[name], "", f"{value}, as in the lab")
             )
-    if abs(state["rate_hz"] * wanted.sampling.period_s - 1.0) > 1e-9:
+    if abs(state["rate_hz"] * configuration.sampling.period_s - 1.0) > 1e-9:
         period = 1.0 / state["rate_hz"]
         bound = f"{period:g} s, as in the lab"
-        raise ParameterError(Violation("sampling.period_s", wanted.sampling.period_s, "s", bound))
+        raise ParameterError(
+            Violation("sampling.period_s", configuration.sampling.period_s, "s", bound)
+        )
 
 
 def _give(session: RemoteSession, change: Change) -> None:

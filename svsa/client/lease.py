@@ -49,7 +49,7 @@ class ControlledConnection(SessionConnection):
         Raises:
             ParameterError: If no user of this name is in the queue.
         """
-        ids = {one["name"]: one["id"] for one in self._read_waiting()}
+        ids = {client["name"]: client["id"] for client in self._read_waiting()}
         if to not in ids:
             raise ParameterError(
                 Violation("to", to, "", "one of " + (", ".join(ids) or "none: the queue is empty"))
@@ -59,7 +59,7 @@ class ControlledConnection(SessionConnection):
     @property
     def waiting(self) -> tuple[str, ...]:
         """The queue for control in a class, the next user first."""
-        return tuple(one["name"] for one in self._read_waiting())
+        return tuple(client["name"] for client in self._read_waiting())
 
     def _read_waiting(self) -> list[dict[str, str]]:
         queue = self.read_state()["queue"]

@@ -34,7 +34,7 @@ class Loads(Remote):
         self._joint = joint
 
     def __iter__(self) -> Iterator[AppliedLoad]:
-        return iter([_read(reported) for reported in self._list()])
+        return iter([_read(load_state) for load_state in self._list()])
 
     def __len__(self) -> int:
         return len(self._list())
@@ -62,8 +62,8 @@ class Loads(Remote):
         self._session.call("DELETE", "/loads")
 
 
-def _read(reported: dict[str, Any]) -> AppliedLoad:
-    load = _LOAD.validate_python(reported["load"])
+def _read(load_state: dict[str, Any]) -> AppliedLoad:
+    load = _LOAD.validate_python(load_state["load"])
     return AppliedLoad(
-        reported["id"], reported["start_s"], reported["end_s"], reported["active"], load
+        load_state["id"], load_state["start_s"], load_state["end_s"], load_state["active"], load
     )

@@ -91,4 +91,4 @@ def _read_fault(state: dict[str, Any]) -> Fault | None:
     """Read the fault from a session's state, without label and advice."""
     if (fault := state["fault"]) is None:
         return None
-    return Fault(**{one.name: fault[one.name] for one in fields(Fault)})
+    return Fault(**{field.name: fault[field.name] for field in fields(Fault)})

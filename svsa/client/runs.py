@@ -28,7 +28,7 @@ class RemoteRuns(Remote):
         return self.open(run_id)
 
     def open(self, run_id: str) -> Result:
-        """The result of a recorded run."""
+        """Return the result of a recorded run."""
         folder = Path(self._folder.name) / quote(run_id, safe="")
         if not folder.exists():
             content = self._connection.download(f"{_path(run_id)}/export", kind="parquet")
@@ -49,11 +49,11 @@ class RemoteRuns(Remote):
         Returns:
             The runs.
         """
-        page, reported = 1, {"total": 1}
-        while (page - 1) * PAGE_SIZE < reported["total"]:
+        page, answer = 1, {"total": 1}
+        while (page - 1) * PAGE_SIZE < answer["total"]:
             query = filters | {"search": search, "page": page, "page_size": PAGE_SIZE}
-            reported = self._connection.read("/runs", **query)
-            yield from reported["runs"]
+            answer = self._connection.read("/runs", **query)
+            yield from answer["runs"]
             page += 1
 
     def read(self, run_id: str) -> dict[str, Any]:

@@ -69,7 +69,7 @@ class RemoteSession(RunningConnection):
 
     @property
     def status(self) -> Literal["running", "paused", "fault"]:
-        """running, paused, or fault."""
+        """State of the session: running, paused, or fault."""
         return self.read_state()["status"]
 
     @property
@@ -137,7 +137,8 @@ class RemoteSession(RunningConnection):
         Raises:
             AttributeError: If there is no such property.
         """
-        known = [one for one in dir(type(self)) if isinstance(getattr(type(self), one), property)]
+        kind = type(self)
+        known = [key for key in dir(kind) if isinstance(getattr(kind, key), property)]
         if name not in known:
             raise AttributeError(f"A session has no property {name!r}{suggest(name, known)}.")
         return getattr(self, name)
@@ -152,17 +153,17 @@ class RemoteSession(RunningConnection):
             ParameterError, StateError: If the lab rejects a value; earlier ones stay set.
             TypeError: If there is no such setting; nothing is set.
         """
-        known = [one for one in dir(type(self)) if is_settable(type(self), one)]
+        known = [attribute for attribute in dir(type(self)) if is_settable(type(self), attribute)]
         for name in settings:
             if name not in known:
                 raise TypeError(f"A session has no setting {name!r}{suggest(name, known)}.")
         for name, value in settings.items():
             setattr(self, name, value)
 
-    def _put(self, name: str, given: Any, method: str = "PUT") -> None:
-        """Set a property to the value that `given` abbreviates."""
-        present = getattr(self, name) if isinstance(given, Mapping) else None
-        value = read_setting(name, given, present)
+    def _put(self, name: str, written: Any, method: str = "PUT") -> None:
+        """Set a property to the value that `written` abbreviates."""
+        present = getattr(self, name) if isinstance(written, Mapping) else None
+        value = read_setting(name, written, present)
         self._change(method, f"/{name}", value.model_dump(mode="json", exclude={"mechanism"}))
 
     @property
@@ -203,8 +204,8 @@ class RemoteSession(RunningConnection):
     @property
     def gains(self) -> Gains:
         """Coefficients of Eq 25, for laws that use gains."""
-        reported = self._read("gains")
-        return Gains(**{name: tuple(reported[name]) for name in Gains.model_fields})
+        coefficients = self._read("gains")
+        return Gains(**{name: tuple(coefficients[name]) for name in Gains.model_fields})
 
     @gains.setter
     def gains(self, gains: GivenGains) -> None:

@@ -155,8 +155,8 @@ class BlockStream:
             yield
         except _BROKEN as error:
             if isinstance(error, InvalidStatus) and error.response.status_code in (401, 403):
-                reported = error.response.body or b"null"
-                raise build_refusal(error.response.status_code, json.loads(reported)) from None
+                problem = error.response.body or b"null"
+                raise build_refusal(error.response.status_code, json.loads(problem)) from None
             if time.monotonic() - self._reported_at > self._timeout_s:
                 raise LabError(f"{self._name} was interrupted: {error}.") from None
 
@@ -177,12 +177,12 @@ class BlockReader:
     def read(self, message: str | bytes) -> Block | None:
         """Read the block in a message; None for another message."""
         if isinstance(message, str):
-            reported = json.loads(message)
-            if reported["type"] == "error":
-                raise LabError(reported["message"])
-            if reported["type"] == "hello":
-                self._hello = reported
-            self._lanes = {lane["id"]: lane["lane"] for lane in reported["state"]["lanes"]}
+            message_fields = json.loads(message)
+            if message_fields["type"] == "error":
+                raise LabError(message_fields["message"])
+            if message_fields["type"] == "hello":
+                self._hello = message_fields
+            self._lanes = {lane["id"]: lane["lane"] for lane in message_fields["state"]["lanes"]}
             return None
         channels = self._hello["channels"]
         batch = unpack_batch(message, len(channels))
