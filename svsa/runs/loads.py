@@ -21,7 +21,7 @@ def give_load(
         number: Number for the new load.
         load: The load.
         tick: Current tick.
-        period: T, s.
+        period: Control period T, s.
         joint: Joint of an arm on which it acts.
 
     Returns:
@@ -45,7 +45,7 @@ def follow_loads(
     Args:
         planned: Loads of the configuration.
         changes: Tick, and the load applied or the number of the load removed.
-        period: T, s.
+        period: Control period T, s.
 
     Returns:
         The loads.
@@ -62,7 +62,7 @@ def trace_loads(
     Args:
         planned: Loads of the configuration.
         changes: Tick, and the load applied or the number of the load removed.
-        period: T, s.
+        period: Control period T, s.
 
     Yields:
         Tick of the change, and the loads.

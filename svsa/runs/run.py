@@ -132,7 +132,7 @@ class Run:
 
     @property
     def period_s(self) -> float:
-        """T, s."""
+        """Control period T, s."""
         return self.configuration.sampling.period_s
 
     @property

@@ -185,7 +185,7 @@ class _Shrinking:
     ) -> None:
         self.attack, self.duration_s = attack, adversary.duration_s
         self.runs, self.steps = 0, list[str]()
-        self._adversary, self._base, self._found = adversary, base, reference
+        self._adversary, self._base, self._reference = adversary, base, reference
 
     def measure(self, attacks: Sequence[Attack], duration_s: float | None = None) -> Measured:
         """Run these attacks, and count the runs."""
@@ -228,7 +228,7 @@ class _Shrinking:
 
     def _keeps(self, measured: Measured) -> np.ndarray:
         """Return which of these attacks keep the effect."""
-        fault = self._found.outcome["fault"][0]
+        fault = self._reference.outcome["fault"][0]
         if fault is not None:
             return np.array([end == fault for end in measured.outcome["fault"]])
-        return is_as_severe(measured, self._found)
+        return is_as_severe(measured, self._reference)

@@ -185,7 +185,7 @@ class Operator:
     """The operator of a bench, who gets no commands; a simulated operator follows them."""
 
     def hang(self, loads: tuple[Load, ...]) -> None:
-        """Set exactly these loads."""
+        """Replace all loads of the run by these."""
 
     def set_to_marks(self) -> None:
         """Set the mechanism to its zero marks, before it is armed."""

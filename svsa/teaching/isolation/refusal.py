@@ -33,7 +33,7 @@ class LawFaultError(SvsaError):
         super().__init__(message)
 
     def __reduce__(self) -> tuple[type[Self], tuple[LawFaultCode, str, str]]:
-        """To another process and back."""
+        """Return how another process rebuilds the error."""
         return type(self), (self.code, str(self), self.output)
 
 
