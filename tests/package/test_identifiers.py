@@ -37,10 +37,10 @@ PROSE = {
 
 @cache
 def read_source() -> tuple[set[str], set[str]]:
-    """Return all words of the code, and the names of its files and of those of `docs`."""
+    """Return all words and modules of the code, and the names of all files and those of `docs`."""
     paths = [path for folder in (*SOURCES, "docs") for path in (ROOT / folder).rglob("*")]
     code = [ROOT / "pyproject.toml", *(path for path in paths if path.suffix in PROSE)]
-    words: set[str] = set()
+    words = {path.stem for path in code}
     for path in code:
         words.update(WORD.findall(PROSE[path.suffix].sub(" ", path.read_text(encoding="utf-8"))))
     return words, {path.name for path in paths}
