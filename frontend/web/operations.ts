@@ -16,7 +16,7 @@ const ADDED = ["joint", "if-match", "idempotency-key"];
 const READ = "observer";
 
 /**
- * The operations, such as "put /sessions/{session}/law", by permission and added parameters, such
+ * The operations, such as "put ~/law", by permission and added parameters, such
  * as "operator joint if-match idempotency-key".
  */
 export function tabulate({ paths }: ApiSchema): Record<string, string[]> {
@@ -27,7 +27,8 @@ export function tabulate({ paths }: ApiSchema): Record<string, string[]> {
       const takes = [role, ...ADDED.filter((name) => names.includes(name))].join(" ");
       if (takes === READ) continue;
       table[takes] ??= [];
-      table[takes].push(`${method} ${path.slice(PREFIX.length)}`);
+      const template = path.slice(PREFIX.length);
+      table[takes].push(`${method} ${template.replace("/sessions/{session}", "~")}`);
     }
   }
   return table;

@@ -1,20 +1,16 @@
 /** Arms: two joints with an actuator in each, as one session. */
-import { request, WORK_TIMEOUT_MS } from "./request";
+import { call } from "./operations";
+import { WORK_TIMEOUT_MS } from "./request";
 import type { components } from "./schema";
-import type { Configuration, SessionState } from "./types";
+import type { Configuration } from "./types";
 
 export type ArmSetup = NonNullable<Configuration["arm"]>;
 export type ArmRow = components["schemas"]["NamedArmState"];
 /** Fields that are left out keep their values. */
 export type ArmPatch = Partial<Omit<ArmSetup, "joint2">>;
 
-export const readArms = () => request("get", "arms") as Promise<ArmRow[]>;
+export const readArms = () => call("get", "/arms", {});
 
 /** The first one compiles its control loop. actuators: of joint 1 and joint 2; those of the arm if left out. */
 export const openArm = (arm: string, actuators?: readonly [string, string]) =>
-  request(
-    "post",
-    "sessions",
-    { from: "arm", arm, ...(actuators && { actuators }) },
-    WORK_TIMEOUT_MS,
-  ) as Promise<SessionState>;
+  call("post", "/sessions", { body: { from: "arm", arm, actuators } }, WORK_TIMEOUT_MS);

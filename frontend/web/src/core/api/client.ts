@@ -124,7 +124,7 @@ export const repeatStiffness = repeatReference("stiffness");
 /** comparisons: laws of the comparison lanes in order; lanes that are left out keep their laws. */
 export const putLaw = (law: Law, comparisons: readonly Law[]) =>
   inSession("put", "/law", {
-    body: comparisons.length === 0 ? { law } : { law, comparison_laws: [...comparisons] },
+    body: comparisons.length === 0 ? { law } : { law, comparison_laws: comparisons },
   });
 export const putGains = (gains: GainsRequest) => inSession("put", "/gains", { body: gains });
 /** Parameters by law name; those that are left out keep their values. */
@@ -134,7 +134,7 @@ export const readLaws = () => call("get", "/laws", {}) as Promise<LawRow[]>;
 export const putObserver = (link: number, motor1: number, motor2: number) =>
   inSession("put", "/observer", { body: { bandwidth_rad_per_s: [link, motor1, motor2] } });
 export const putLanes = (comparisons: readonly Lane[]) =>
-  inSession("put", "/lanes", { body: { comparisons: [...comparisons] } });
+  inSession("put", "/lanes", { body: { comparisons } });
 /**
  * lane: its number, from 2; its plant keeps its state. The page shows a comparison with the same
  * controller in both joints of an arm.

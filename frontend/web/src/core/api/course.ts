@@ -1,9 +1,8 @@
 /** The course: exercises, progress, measured runs and grades. */
 
-import type { Job } from "./jobs";
-import { API, request, sessionName, WORK_TIMEOUT_MS } from "./request";
+import { call } from "./operations";
+import { API, WORK_TIMEOUT_MS } from "./request";
 import type { components } from "./schema";
-import type { SessionState } from "./types";
 
 type Schemas = components["schemas"];
 
@@ -11,50 +10,44 @@ export type ExerciseSummary = Schemas["ExerciseSummary"];
 export type Exercise = Schemas["ExerciseState"];
 export type Step = Schemas["StepState"];
 export type CriterionResult = Schemas["CriterionResult"];
-type Judgement = Schemas["Judgement"];
 
-const pathOf = (exercise: string, rest = "") => `course/${encodeURIComponent(exercise)}${rest}`;
-const stepOf = (exercise: string, step: string, rest: string) =>
-  pathOf(exercise, `/steps/${encodeURIComponent(step)}/${rest}`);
-const SESSION = `sessions/${encodeURIComponent(sessionName)}`;
-
-export const listCourse = () => request("get", "course") as Promise<Schemas["CourseState"]>;
+export const listCourse = () => call("get", "/course", {});
 export const readExercise = (exercise: string) =>
-  request("get", pathOf(exercise)) as Promise<Exercise>;
+  call("get", "/course/{exercise}", { path: { exercise } });
 export const putPlace = (exercise: string, step: string) =>
-  request("put", pathOf(exercise, "/place"), { step }) as Promise<Exercise>;
+  call("put", "/course/{exercise}/place", { path: { exercise }, body: { step } });
 export const putAnswer = (exercise: string, step: string, answer: number | string) =>
-  request("put", stepOf(exercise, step, "answer"), { answer }) as Promise<Exercise>;
+  call("put", "/course/{exercise}/steps/{step}/answer", {
+    path: { exercise, step },
+    body: { answer },
+  });
 export const checkRun = (exercise: string, step: string, run: string) =>
-  request("post", stepOf(exercise, step, "check"), { run_id: run }, WORK_TIMEOUT_MS) as Promise<
-    CriterionResult[]
-  >;
-export const putLaw = (exercise: string, law: string) =>
-  request("put", pathOf(exercise, "/law"), { text: law }, WORK_TIMEOUT_MS) as Promise<Exercise>;
-export const submit = (exercise: string, student: string) =>
-  request(
+  call(
     "post",
-    pathOf(exercise, "/submission"),
-    { student },
+    "/course/{exercise}/steps/{step}/check",
+    { path: { exercise, step }, body: { run_id: run } },
     WORK_TIMEOUT_MS,
-  ) as Promise<Judgement>;
+  );
+export const putLaw = (exercise: string, text: string) =>
+  call("put", "/course/{exercise}/law", { path: { exercise }, body: { text } }, WORK_TIMEOUT_MS);
+export const submit = (exercise: string, student: string) =>
+  call(
+    "post",
+    "/course/{exercise}/submission",
+    { path: { exercise }, body: { student } },
+    WORK_TIMEOUT_MS,
+  );
 /** Set up this page's session for an experiment, at t = 0 and paused. */
 export const setUpStep = (exercise: string, step: string) =>
-  request("post", `${SESSION}/experiment`, {
-    from: "exercise",
-    exercise,
-    step,
-  }) as Promise<SessionState>;
+  call("post", "/sessions/{session}/experiment", { body: { from: "exercise", exercise, step } });
 /** Restore the settings from before the exercise, at t = 0. */
 export const restoreSettings = () =>
-  request("post", `${SESSION}/experiment`, { from: "before_exercise" }) as Promise<SessionState>;
+  call("post", "/sessions/{session}/experiment", { body: { from: "before_exercise" } });
 /** The run is named after its exercise and step. */
 export const recordStep = (name: string) =>
-  request("post", `${SESSION}/recording`, {
-    name,
-    tags: ["course"],
-    notes: "",
-  }) as Promise<SessionState>;
+  call("post", "/sessions/{session}/recording", {
+    body: { name, tags: ["course"], notes: "" },
+  });
 // Grades: of the whole class for its instructor, and the student's own.
 
 export type Grades = Schemas["GradesState"];
@@ -63,9 +56,8 @@ export type Submission = Schemas["GradedSubmissionState"];
 export type Grade = NonNullable<Submission["grade"]>;
 
 /** The first request tests whether this machine can isolate a law. */
-export const readGrades = () =>
-  request("get", "grades", undefined, WORK_TIMEOUT_MS) as Promise<Grades>;
-export const gradeClass = (again: boolean) => request("post", "grades", { again }) as Promise<Job>;
+export const readGrades = () => call("get", "/grades", {}, WORK_TIMEOUT_MS) as Promise<Grades>;
+export const gradeClass = (again: boolean) => call("post", "/grades", { body: { again } });
 export const readOwnGrades = async () =>
   (await readGrades()).students.flatMap(({ submissions }) => submissions);
 

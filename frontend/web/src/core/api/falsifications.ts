@@ -1,8 +1,9 @@
 /** Searches for the worst-case load of a law, and the scenarios saved from them. */
 import { type Job, jobFileOf, listJobs, readJob, startJob, stopJob } from "./jobs";
-import { API, request, WORK_TIMEOUT_MS } from "./request";
+import { call } from "./operations";
+import { API, WORK_TIMEOUT_MS } from "./request";
 import type { components } from "./schema";
-import type { Law, SessionState } from "./types";
+import type { Law } from "./types";
 
 type Schemas = components["schemas"];
 
@@ -31,29 +32,22 @@ const readResult = (job: Job): Search => ({
   ...job,
   ...(job.result as Schemas["FalsificationResult"]),
 });
-const scenarioPath = (name: string, rest = ""): string =>
-  `scenarios/${encodeURIComponent(name)}${rest}`;
 
-export const listAdversaries = () => request("get", "adversaries") as Promise<AdversaryState[]>;
+export const listAdversaries = () => call("get", "/adversaries", {});
 export const listSearches = async () => (await listJobs("falsification")).map(readResult);
 export const startSearch = async (searchRequest: SearchRequest) =>
   readResult(await startJob({ kind: "falsification", ...searchRequest }));
 export const readSearch = async (id: string) => readResult(await readJob(id));
 export { jobFileOf as searchFileOf, stopJob as stopSearch };
 
-export const listScenarios = () => request("get", "scenarios") as Promise<SavedScenario[]>;
+export const listScenarios = () => call("get", "/scenarios", {});
 export const saveScenario = (name: string, scenario: Scenario) =>
-  request("put", scenarioPath(name), scenario) as Promise<SavedScenario>;
+  call("put", "/scenarios/{scenario}", { path: { scenario: name }, body: scenario });
 export const scenarioFileOf = (name: string): string =>
-  new URL(`${scenarioPath(name)}?format=toml`, API).href;
+  new URL(`scenarios/${encodeURIComponent(name)}?format=toml`, API).href;
 /** Outcome of each law, and its errors over time. */
 export const traceLaws = (scenario: Scenario, laws: readonly Law[]) =>
-  request("post", "scenarios/runs", { scenario, laws }, WORK_TIMEOUT_MS) as Promise<Trace>;
+  call("post", "/scenarios/runs", { body: { scenario, laws } }, WORK_TIMEOUT_MS);
 /** Open a private session with several laws in lanes. */
 export const openScenarioSession = (scenario: Scenario, laws: readonly Law[]) =>
-  request(
-    "post",
-    "sessions",
-    { from: "scenario", scenario, laws },
-    WORK_TIMEOUT_MS,
-  ) as Promise<SessionState>;
+  call("post", "/sessions", { body: { from: "scenario", scenario, laws } }, WORK_TIMEOUT_MS);

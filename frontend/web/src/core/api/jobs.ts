@@ -1,5 +1,6 @@
 /** Long-running jobs on the server, of any kind, and the tuning of a law. */
-import { API, request, sessionName } from "./request";
+import { call } from "./operations";
+import { API, sessionName } from "./request";
 import type { components } from "./schema";
 import type { Law } from "./types";
 
@@ -11,11 +12,12 @@ const pathOf = (id: string): string => `jobs/${encodeURIComponent(id)}`;
 
 /** Jobs of this kind, or of all kinds, newest first; the server keeps at most 50. */
 export const listJobs = async (kind?: Job["kind"]) =>
-  ((await request("get", kind ? `jobs?kind=${kind}` : "jobs")) as Schemas["JobList"]).jobs;
-export const startJob = (jobRequest: object) => request("post", "jobs", jobRequest) as Promise<Job>;
-export const readJob = (id: string) => request("get", pathOf(id)) as Promise<Job>;
+  (await call("get", "/jobs", { query: { kind } })).jobs;
+export const startJob = (jobRequest: object) =>
+  call("post", "/jobs", { body: jobRequest as never });
+export const readJob = (id: string) => call("get", "/jobs/{job}", { path: { job: id } });
 export const jobFileOf = (id: string): string => new URL(`${pathOf(id)}/file`, API).href;
-export const stopJob = (id: string) => request("delete", pathOf(id)) as Promise<Job>;
+export const stopJob = (id: string) => call("delete", "/jobs/{job}", { path: { job: id } });
 
 // Tuning of a law: start, follow, cancel.
 
@@ -30,6 +32,6 @@ export const startTuning = async (law: Law, budget: number) =>
   readResult(await startJob({ kind: "tuning", law, budget, session: sessionName }));
 /** first: index of the first trial to return. */
 export const readTuning = async (id: string, first: number) =>
-  readResult((await request("get", `${pathOf(id)}?first=${first}`)) as Job);
+  readResult(await call("get", "/jobs/{job}", { path: { job: id }, query: { first } }));
 export const listTunings = async () => (await listJobs("tuning")).map(readResult);
 export { jobFileOf as tunedFileOf, stopJob as stopTuning };

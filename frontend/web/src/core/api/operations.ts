@@ -38,7 +38,7 @@ export type OperationOf<M extends Method, P extends Template<M>> = NonNullable<
 
 /** Fields that are left out have defaults: the schema's types require them. */
 type Sparse<T> = T extends readonly unknown[]
-  ? T
+  ? Readonly<T>
   : T extends object
     ? { [K in keyof T]?: Sparse<T[K]> | undefined }
     : T;
@@ -51,9 +51,9 @@ type PathPart<O> = O extends { parameters: { path: infer N } }
     : { path: Omit<N, "session"> & Partial<N> }
   : unknown;
 type QueryPart<O> = O extends { parameters: { query: infer Q } }
-  ? { query: Q }
+  ? { query: { [K in keyof Q]: Sparse<Q[K]> } }
   : O extends { parameters: { query?: infer Q } }
-    ? { query?: Omit<NonNullable<Q>, "joint"> }
+    ? { query?: Sparse<Omit<NonNullable<Q>, "joint">> }
     : unknown;
 type Keys<T> = [NonNullable<T>] extends [never] ? never : keyof NonNullable<T>;
 type Header<O> = O extends { parameters: { header?: infer H } } ? Keys<H> : never;
@@ -90,7 +90,7 @@ export const fillPath = (template: string, values: object = {}): string =>
 
 /** The parameters that the page adds to an operation, and its permission. */
 export function parametersOf(method: string, template: string, table = __OPERATIONS__) {
-  const operation = `${method} ${template}`;
+  const operation = `${method} ${template}`.replace("/sessions/{session}", "~");
   const takes = Object.keys(table).find((key) => table[key]?.includes(operation)) ?? READ;
   const [permission, ...parameters] = takes.split(" ");
   return { permission, parameters };

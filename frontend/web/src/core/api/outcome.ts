@@ -2,7 +2,7 @@
 import { signal } from "@preact/signals";
 import { setCallStatus } from "./calls";
 import { NotExecutedError, RefusedError, type UnansweredError } from "./errors";
-import { request } from "./request";
+import { call } from "./operations";
 import type { OutcomeState } from "./types";
 
 /** asking: not yet known; carriedOut: the server has executed the request. */
@@ -49,7 +49,7 @@ async function pollOutcome(unanswered: UnansweredError): Promise<number | null> 
   const endMs = performance.now() + MAX_POLL_MS;
   let unknownCount = 0;
   while (performance.now() < endMs) {
-    const outcome = await queryOutcome(`requests/${unanswered.request}`);
+    const outcome = await queryOutcome(unanswered.request ?? "");
     if (outcome?.outcome === "carried_out" || outcome?.outcome === "refused") return outcome.status;
     const sinceS = (performance.now() - unanswered.sentMs) / 1000;
     if (outcome?.outcome === "unknown" && outcome.known_for_s < sinceS) break;
@@ -61,9 +61,9 @@ async function pollOutcome(unanswered: UnansweredError): Promise<number | null> 
   throw unanswered;
 }
 
-async function queryOutcome(path: string): Promise<OutcomeState | null> {
+async function queryOutcome(key: string): Promise<OutcomeState | null> {
   try {
-    return (await request("get", path)) as OutcomeState;
+    return await call("get", "/requests/{key}", { path: { key } });
   } catch (error) {
     if (error instanceof RefusedError) throw error;
     return null;

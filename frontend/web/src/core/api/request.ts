@@ -59,7 +59,7 @@ export async function request(
   body?: unknown,
   timeoutMs = DEFAULT_TIMEOUT_MS,
   extraHeaders: Readonly<Record<string, string>> = {},
-  hasKey = method !== "get",
+  hasKey = false,
 ): Promise<unknown> {
   const requestId = hasKey ? randomId() : null;
   const headers: Record<string, string> = { ...extraHeaders, [CLIENT_HEADER]: client };

@@ -1,18 +1,7 @@
 /** The public REST API of the recorded runs, one function per call. */
-import { API, readRefusal, request, sessionName, WORK_TIMEOUT_MS } from "./request";
-import type {
-  ExportName,
-  RunDetails,
-  RunDifference,
-  RunList,
-  RunOrigin,
-  RunPatch,
-  RunSamples,
-  RunSummary,
-  RunVerdict,
-  SessionState,
-  VerdictRequest,
-} from "./types";
+import { call, Edit } from "./operations";
+import { API, readRefusal, WORK_TIMEOUT_MS } from "./request";
+import type { ExportName, RunList, RunPatch, RunSummary, VerdictRequest } from "./types";
 
 interface RunQuery {
   search: string;
@@ -28,57 +17,50 @@ const pathOf = (run: string, rest = ""): string => `runs/${encodeURIComponent(ru
 
 export function listRuns(runQuery: RunQuery): Promise<RunList> {
   const { search, filters, sort, page, pageSize, isTrash } = runQuery;
-  const query = new URLSearchParams({ sort, page: String(page), page_size: String(pageSize) });
-  if (search) query.set("search", search);
-  for (const [facet, value] of Object.entries(filters)) if (value) query.set(facet, value);
-  if (isTrash) query.set("trash", "true");
-  return request("get", `runs?${query}`) as Promise<RunList>;
+  const chosen = Object.entries({ search, ...filters }).filter(([, value]) => value);
+  const query = { sort, page, page_size: pageSize, trash: isTrash, ...Object.fromEntries(chosen) };
+  return call("get", "/runs", { query: query as never });
 }
 
-export const readRun = (run: string) => request("get", pathOf(run)) as Promise<RunDetails>;
+export const readRun = (run: string) => call("get", "/runs/{run_id}", { path: { run_id: run } });
 /** Rejected with 412 if another client has changed the run since this revision was read. */
-export const changeRun = (run: Pick<RunSummary, "id" | "revision">, patch: RunPatch) =>
-  request("patch", pathOf(run.id), patch, undefined, {
-    "If-Match": `"${run.revision}"`,
-  }) as Promise<RunSummary>;
-export const deleteRun = (run: string) => request("delete", pathOf(run)) as Promise<RunSummary>;
+export const changeRun = (
+  { id, revision }: Pick<RunSummary, "id" | "revision">,
+  body: Partial<RunPatch>,
+) => {
+  const edit = new Edit(null, { revision });
+  return call("patch", "/runs/{run_id}", { path: { run_id: id }, body, edit });
+};
+export const deleteRun = (run: string) =>
+  call("delete", "/runs/{run_id}", { path: { run_id: run } });
 export const restoreRun = (run: string) =>
-  request("patch", pathOf(run), { deleted: false }) as Promise<RunSummary>;
+  call("patch", "/runs/{run_id}", {
+    path: { run_id: run },
+    body: { deleted: false },
+    edit: null,
+  });
 export const readRunOrigin = (run: string) =>
-  request("get", pathOf(run, "/origin"), undefined, WORK_TIMEOUT_MS) as Promise<RunOrigin>;
-export function readDifference(run: string, others: readonly string[]): Promise<RunDifference> {
-  const query = new URLSearchParams(others.map((other) => ["other", other]));
-  return request("get", pathOf(run, `/difference?${query}`)) as Promise<RunDifference>;
-}
+  call("get", "/runs/{run_id}/origin", { path: { run_id: run } }, WORK_TIMEOUT_MS);
+export const readDifference = (run: string, others: readonly string[]) =>
+  call("get", "/runs/{run_id}/difference", {
+    path: { run_id: run },
+    query: { other: others },
+  });
 
-export const assessRun = (run: string, runQuery: VerdictRequest) =>
-  request("post", pathOf(run, "/verdict"), runQuery, WORK_TIMEOUT_MS) as Promise<RunVerdict>;
+export const assessRun = (run: string, body: VerdictRequest) =>
+  call("post", "/runs/{run_id}/verdict", { path: { run_id: run }, body }, WORK_TIMEOUT_MS);
 
 export const branchRun = (run: string, tick: number) =>
-  request(
-    "post",
-    "sessions",
-    { from: "run", id: run, tick },
-    WORK_TIMEOUT_MS,
-  ) as Promise<SessionState>;
+  call("post", "/sessions", { body: { from: "run", id: run, tick } }, WORK_TIMEOUT_MS);
 
-export function readSamples(
-  run: string,
-  channels: readonly string[],
-  points: number,
-): Promise<RunSamples> {
-  const query = new URLSearchParams({ channels: channels.join(","), points: String(points) });
-  return request("get", pathOf(run, `/samples?${query}`)) as Promise<RunSamples>;
-}
+export const readSamples = (run: string, channels: readonly string[], points: number) =>
+  call("get", "/runs/{run_id}/samples", {
+    path: { run_id: run },
+    query: { channels: channels.join(","), points },
+  });
 
 /** The run from which the page's session started. */
-export const readOrigin = () =>
-  request(
-    "get",
-    `sessions/${encodeURIComponent(sessionName)}/origin`,
-    undefined,
-    WORK_TIMEOUT_MS,
-  ) as Promise<RunOrigin>;
+export const readOrigin = () => call("get", "/sessions/{session}/origin", {}, WORK_TIMEOUT_MS);
 
 export const exportPath = (run: string, kind: ExportName): string =>
   pathOf(run, `/export?kind=${kind}`);

@@ -1,6 +1,7 @@
 /** Studies and their jobs, one function per call. */
 import { LockedError, RefusedError, UnansweredError } from "./errors";
-import { API, client, request, WORK_TIMEOUT_MS } from "./request";
+import { call } from "./operations";
+import { API, client, WORK_TIMEOUT_MS } from "./request";
 import type { components } from "./schema";
 import type { Law, Refusal } from "./types";
 
@@ -13,7 +14,6 @@ export type StudyList = Schemas["StudyList"];
 export type StudySummary = Schemas["StudySummary"];
 export type Estimate = Schemas["Estimate"];
 export type SobolIndices = Schemas["SobolIndices"];
-type RowReplay = Schemas["RowReplay"];
 export type StudyRow = Readonly<Record<string, string | number | boolean | null>>;
 
 /** Requested changes; fields that are left out keep the value of the source or the text. */
@@ -30,45 +30,40 @@ export interface StudyChanges {
 const CLIENT_HEADER = "SVSA-Client";
 const pathOf = (study: string, rest = ""): string => `studies/${encodeURIComponent(study)}${rest}`;
 
-export const listStudies = () => request("get", "studies") as Promise<StudyList>;
-export const readStudy = (study: string) => request("get", pathOf(study)) as Promise<Study>;
-export const checkStudy = (changes: StudyChanges) =>
-  request("post", "studies/check", changes) as Promise<StudyPlan>;
-export const startStudy = (changes: StudyChanges) =>
-  request("post", "studies", changes, WORK_TIMEOUT_MS) as Promise<Study>;
+export const listStudies = () => call("get", "/studies", {});
+export const readStudy = (study: string) => call("get", "/studies/{study}", { path: { study } });
+export const checkStudy = (body: StudyChanges) =>
+  call("post", "/studies/check", { body: body as never });
+export const startStudy = (body: StudyChanges) =>
+  call("post", "/studies", { body: body as never }, WORK_TIMEOUT_MS);
 /**
  * Delete permanently; a running study is cancelled first, which may take as long as its current
  * rows.
  */
 export const deleteStudy = (study: string) =>
-  request("delete", pathOf(study), undefined, WORK_TIMEOUT_MS);
+  call("delete", "/studies/{study}", { path: { study } }, WORK_TIMEOUT_MS);
 export const readSummary = (study: string) =>
-  request("get", pathOf(study, "/summary"), undefined, WORK_TIMEOUT_MS) as Promise<StudySummary>;
+  call("get", "/studies/{study}/summary", { path: { study } }, WORK_TIMEOUT_MS);
 export const readSensitivity = (study: string, outcome: string) =>
-  request(
+  call(
     "get",
-    pathOf(study, `/sensitivity?outcome=${encodeURIComponent(outcome)}`),
-    undefined,
+    "/studies/{study}/sensitivity",
+    { path: { study }, query: { outcome } },
     WORK_TIMEOUT_MS,
-  ) as Promise<SobolIndices[]>;
+  );
 export const readRow = (study: string, row: number) =>
-  request("get", pathOf(study, `/rows/${row}`)) as Promise<StudyRow>;
+  call("get", "/studies/{study}/rows/{row}", { path: { study, row } }) as Promise<StudyRow>;
 /** Record one row as a run. */
 export const replayRow = (study: string, row: number) =>
-  request(
-    "post",
-    pathOf(study, `/rows/${row}/replay`),
-    undefined,
-    WORK_TIMEOUT_MS,
-  ) as Promise<RowReplay>;
+  call("post", "/studies/{study}/rows/{row}/replay", { path: { study, row } }, WORK_TIMEOUT_MS);
 export const tableOf = (study: string): string =>
   new URL(pathOf(study, "/rows?format=parquet"), API).href;
 
 /** Shares with 95 % confidence intervals; counts: pairs (successes, total), at most 256. */
-export const estimateShares = (counts: readonly (readonly [number, number])[]) => {
-  const pairs = counts.map(([count, total]) => `counts=${count},${total - count}`);
-  return request("get", `shares?${pairs.join("&")}`) as Promise<Estimate[]>;
-};
+export const estimateShares = (counts: readonly (readonly [number, number])[]) =>
+  call("get", "/shares", {
+    query: { counts: counts.map(([count, total]) => `${count},${total - count}`) },
+  });
 
 /** Columns of all rows, or of a random subset of them, as the server packs them. */
 export async function readRows(study: string, columns: readonly string[]): Promise<ArrayBuffer> {

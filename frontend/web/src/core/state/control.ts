@@ -8,6 +8,8 @@ import {
   openPrivateSession,
   takeControl,
 } from "../api/client";
+import { parametersOf, type Template } from "../api/operations";
+import type { Method } from "../api/types";
 import { explain, perform, problem } from "./actions";
 import { nameForControl, personName, setPersonName } from "./preferences";
 import { isLive, session } from "./session";
@@ -20,6 +22,13 @@ export const loginCount = signal(0);
 
 export const isClass = computed(() => access.value?.authentication === "class");
 export const isInstructor = computed(() => isClass.value && access.value?.role === "instructor");
+const ROLES = ["public", "observer", "operator", "instructor"];
+/** Whether the role of the user in a class permits an operation. */
+export const mayCall = <M extends Method>(method: M, template: Template<M>): boolean =>
+  !isClass.value ||
+  ROLES.indexOf(access.value?.role ?? "public") >=
+    ROLES.indexOf(parametersOf(method, template).permission ?? "");
+
 export const isObserver = computed(() => isClass.value && access.value?.role === "observer");
 
 /** Query the lab; without an answer the previous value stays. */

@@ -4,7 +4,7 @@ import type { Law } from "../../core/api/types";
 import { isJobRunning } from "../../core/jobs/progress";
 import type { LineStyle } from "../../core/plots/definitions";
 import { lineStylesOfLaws } from "../../core/plots/linestyles";
-import { isObserver } from "../../core/state/control";
+import { mayCall } from "../../core/state/control";
 import { laws as installedLaws, titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { Example, PageWithForm } from "../../core/widgets/pagelayout";
@@ -100,7 +100,7 @@ function Under() {
     );
   }, [trace, names.join(), installed]);
   if (one === null) return null;
-  if (isObserver.value) return <p class="hint wide">{words.observer}</p>;
+  if (!mayCall("post", "/scenarios/runs")) return <p class="hint wide">{words.observer}</p>;
   if (trace === null) return <p class="hint wide">{problem.value === "" && words.running}</p>;
   const draw = (law: Law) =>
     setPicked(names.includes(law) ? names.filter((name) => name !== law) : [...names, law]);

@@ -1,7 +1,7 @@
 import { useEffect } from "preact/hooks";
 import { type Study, tableOf } from "../../core/api/studies";
 import { isJobRunning, JobProgress } from "../../core/jobs/progress";
-import { isObserver } from "../../core/state/control";
+import { mayCall } from "../../core/state/control";
 import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { Example, PageWithForm } from "../../core/widgets/pagelayout";
@@ -128,7 +128,7 @@ function StudyView({ found }: { found: Study }) {
           <h3>
             {found.is_example && <Example />} {found.title}
           </h3>
-          {!found.is_example && !isObserver.value && <Deletion found={found} />}
+          {!found.is_example && mayCall("delete", "/studies/{study}") && <Deletion found={found} />}
         </div>
         <Progress found={found} />
         {count > 0 && (

@@ -1,6 +1,7 @@
 /** A figure of the paper run with both laws in a private session, and the result. */
-import { API, request } from "../../core/api/request";
-import type { Claim, Figure, Hello, SessionState } from "../../core/api/types";
+import { call } from "../../core/api/operations";
+import { API } from "../../core/api/request";
+import type { Claim, Figure, Hello } from "../../core/api/types";
 import { BatchDecoder } from "../../core/stream/decoder";
 import { type ErrorHistory, errorHistoryOf } from "./outcome";
 
@@ -10,9 +11,6 @@ const RATE_HZ = 1000;
 const TIMEOUT_MS = 20_000;
 const CHANNELS = ["time_s", "position_error_rad"] as const;
 
-const privateRequest = (method: "post" | "get" | "delete" | "put", path: string, body?: unknown) =>
-  request(method, path, body, TIMEOUT_MS) as Promise<SessionState>;
-
 export interface FigureResult {
   course: ErrorHistory;
   /** The run compared with the paper's claim, by the server. */
@@ -21,30 +19,31 @@ export interface FigureResult {
 
 /** The whole run with FL and NDOBC. */
 export async function runFigureInPrivate(figure: Figure): Promise<FigureResult> {
-  const { session } = await privateRequest("post", "sessions", {
-    figure,
-    law: "fl",
-    comparisons: [{ law: "ndobc" }],
-    load: true,
-  });
-  const path = `sessions/${session}`;
+  const { session } = await call(
+    "post",
+    "/sessions",
+    { body: { figure, law: "fl", comparisons: [{ law: "ndobc" }], load: true } },
+    TIMEOUT_MS,
+  );
+  const path = { session };
   try {
-    let state = await privateRequest("post", `${path}/pause`);
+    let state = await call("post", "/sessions/{session}/pause", { path }, TIMEOUT_MS);
     const last = Math.round(DURATION_S * state.rate_hz);
     while (state.tick < last && state.status !== "fault") {
       const ticks = Math.min(MAX_STEP, last - state.tick);
-      state = await privateRequest("post", `${path}/step`, { ticks });
+      const parts = { path, body: { ticks } };
+      state = await call("post", "/sessions/{session}/step", parts, TIMEOUT_MS);
     }
-    const claim = (await request("get", `${path}/claim?figure=${figure}`)) as Claim;
-    return { course: await readHistory(path, state.tick), claim };
+    const claim = await call("get", "/sessions/{session}/claim", { path, query: { figure } });
+    return { course: await readHistory(session, state.tick), claim };
   } finally {
-    await request("delete", path).catch(() => undefined);
+    await call("delete", "/sessions/{session}", { path }).catch(() => undefined);
   }
 }
 
 /** Read the run's past from the stream, then close it. */
-function readHistory(path: string, lastTick: number): Promise<ErrorHistory> {
-  const address = new URL(`${path}/stream`, API);
+function readHistory(session: string, lastTick: number): Promise<ErrorHistory> {
+  const address = new URL(`sessions/${session}/stream`, API);
   address.protocol = address.protocol.replace("http", "ws");
   address.search = String(
     new URLSearchParams({

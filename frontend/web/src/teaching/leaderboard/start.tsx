@@ -1,6 +1,6 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import { isJobRunning, JobProgress } from "../../core/jobs/progress";
-import { isClass, isObserver } from "../../core/state/control";
+import { isClass, mayCall } from "../../core/state/control";
 import { personName, setPersonName } from "../../core/state/preferences";
 import { text } from "../../core/text/en";
 import { findFault, LawText } from "../../core/widgets/lawtext";
@@ -134,12 +134,12 @@ export function Start() {
           <p class="problem">{words.notIsolated}</p>
           <p class="hint">{now.not_isolated}</p>
         </div>
-      ) : isObserver.value ? (
+      ) : !mayCall("post", "/leaderboard/submissions") ? (
         <p class="surface card hint">{words.observer}</p>
       ) : (
         <Form />
       )}
-      {isMissing && !isObserver.value && (
+      {isMissing && mayCall("post", "/leaderboard/laws") && (
         <div class="surface card">
           <h3>{words.lab}</h3>
           <p class="hint">{words.missing(now.missing.length)}</p>

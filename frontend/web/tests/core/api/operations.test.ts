@@ -105,3 +105,16 @@ describe("a command of the user", () => {
     ]);
   });
 });
+
+it("a role of a class permits an operation as the schema says, and a lab without one all", async () => {
+  const { access, mayCall } = await import("../../../src/core/state/control");
+  const study = "/studies/{study}";
+  const permitted = (role: string, authentication = "class") => {
+    access.value = { authentication, role } as never;
+    return [mayCall("get", study), mayCall("delete", study), mayCall("get", "/class/audit")];
+  };
+  expect(permitted("observer")).toEqual([true, false, false]);
+  expect(permitted("operator")).toEqual([true, true, false]);
+  expect(permitted("instructor")).toEqual([true, true, true]);
+  expect(permitted("observer", "none")).toEqual([true, true, true]);
+});
