@@ -19,6 +19,8 @@ from svsa.client.connection import API, CONNECT_S, PAUSE_S, Connection, LabError
 from svsa.errors import ParameterError, Violation
 from svsa.runs.session.frame import unpack_batch
 
+CLOSE_S = 1.0
+"""Longest wait for the server to confirm the end of a stream, s."""
 _BROKEN = (OSError, ConnectionClosedError, InvalidHandshake)
 
 
@@ -89,6 +91,8 @@ class BlockStream:
         self._options: dict[str, Any] = {
             "additional_headers": kept,
             "open_timeout": CONNECT_S,
+            # Unread messages of a script that stopped reading hide the server's confirmation.
+            "close_timeout": CLOSE_S,
             "max_size": None,
             "proxy": None,
         }
