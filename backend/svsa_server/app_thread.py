@@ -112,12 +112,12 @@ class AppThread:
         self._thread.start()
 
     async def wait_for_place(self, longest_s: float) -> None:
-        """Wait until few calls begin in the application, at most `longest_s` s.
+        """Wait until few calls begin in the application, or it has been silent for `longest_s` s.
 
         A call has begun, and its place is free, when it waits for the first time.
         """
         with contextlib.suppress(TimeoutError):
-            async with asyncio.timeout(longest_s):
+            async with asyncio.timeout(max(0.0, longest_s - self.silence_s)):
                 await self._places.acquire()
             outer = asyncio.get_running_loop()
 
