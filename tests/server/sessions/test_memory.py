@@ -18,13 +18,10 @@ KEPT_MB = 16.0
 
 @pytest.mark.exhaustive
 def test_session_with_one_lane_costs_8_mb_which_return_when_it_ends():
-    """Costs that occur once, such as imports and the code that a thread loads after the start,
-    belong to the first sessions, which are not counted.
-    """
+    """Costs that occur once, such as imports, belong to the first session, which is not counted."""
     with run_lab(max_sessions=str(SESSIONS)) as lab:
         lab.client.post(lab.session + "/pause").raise_for_status()
-        for _ in range(4):
-            end_sessions(lab, open_sessions(lab, 1))
+        end_sessions(lab, open_sessions(lab, 1))
         before_mb = read_memory_mb(lab)
         for _ in range(2):
             paths = open_sessions(lab, SESSIONS)
