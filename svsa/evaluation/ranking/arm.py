@@ -51,7 +51,7 @@ class Median(Checked):
 
 
 class ArmRow(Checked):
-    """The result of a controller."""
+    """The result of one controller of an arm: tuned values, success, faults and errors."""
 
     law: str = quantity("", "Name of the law")
     feedforward: Flag = quantity("", "Whether it receives the arm feedforward")
@@ -72,7 +72,7 @@ class ArmRow(Checked):
 
 
 class ArmResults(Checked):
-    """Rows and their protocol."""
+    """Results of the ranking of an arm's controllers, with their protocol."""
 
     protocol: ArmProtocol
     rows: tuple[ArmRow, ...] = ()
@@ -87,13 +87,13 @@ class ArmTest(NamedTuple):
 
 def list_arm_controllers() -> list[ArmController]:
     """List every suitable law; if it takes the feedforward, also with it, and adaptive."""
-    found = []
+    controllers = []
     for law in list_law_names():
         if law not in LEFT_OUT:
-            found.append(ArmController(law))
+            controllers.append(ArmController(law))
             if get_law(law).takes_feedforward:
-                found += [ArmController(law, True), ArmController(law, True, True)]
-    return found
+                controllers += [ArmController(law, True), ArmController(law, True, True)]
+    return controllers
 
 
 def build_arm_test(protocol: ArmProtocol) -> ArmTest:
@@ -106,7 +106,16 @@ def measure_arm_row(
     test: ArmTest,
     on_candidate: Callable[[Candidate], None] = lambda _: None,
 ) -> ArmRow:
-    """Tune a controller, and grade it on the test trials."""
+    """Tune a controller, and grade it on the test trials.
+
+    Args:
+        controller: Law, and whether it receives feedforward and an estimated payload.
+        test: Test trials and their protocol.
+        on_candidate: Called with each candidate of the search.
+
+    Returns:
+        Tuned values, costs, success of each trial, and medians of the errors.
+    """
     p = test.protocol
     tuned = tune(
         controller.law,
@@ -126,30 +135,33 @@ def measure_arm_row(
         values=dict(zip(labels, tuned.best.values, strict=True)),
         before=tuned.finals[0].judgment.cost,
         after=tuned.best.judgment.cost,
-        held=tuple(bool(np.all(find_held(one))) for one in summaries),
+        held=tuple(bool(np.all(find_held(trial))) for trial in summaries),
         faults=int(np.sum(summaries["code"][:, 0] != INSIDE)),
         outputs=tuple(map(_describe_median, _list_errors(test, summaries))),
     )
 
 
 def _list_errors(test: ArmTest, summaries: np.ndarray) -> list[np.ndarray]:
-    """Position errors (°) and stiffness errors (%) of both joints; infinite for a fault."""
-    periods = np.array([one.configuration.sampling.period_s for one in test.trials])
-    sigmas = np.array([one.sigmas for one in test.trials])
+    """List rms position errors (°), then rms stiffness errors (%), of both joints.
+
+    Each array has shape (trials,); infinite for a trial that ended in a fault.
+    """
+    periods = np.array([trial.configuration.sampling.period_s for trial in test.trials])
+    sigmas = np.array([trial.sigmas for trial in test.trials])
     positions, stiffnesses = [], []
     for joint in (0, 1):
-        found = compute_metrics(summaries[:, joint], periods, LOAD_S)
+        metrics = compute_metrics(summaries[:, joint], periods, LOAD_S)
         ended = summaries["code"][:, joint] != INSIDE
-        share = found["rms_stiffness_error_nm_per_rad"] / sigmas[:, joint]
-        error = np.degrees(found["rms_position_error_rad"])
+        share = metrics["rms_stiffness_error_nm_per_rad"] / sigmas[:, joint]
+        error = np.degrees(metrics["rms_position_error_rad"])
         positions.append(np.where(ended, np.inf, error))
         stiffnesses.append(np.where(ended, np.inf, 100.0 * share))
     return positions + stiffnesses
 
 
 def _describe_median(values: np.ndarray) -> Median:
-    found = (end if np.isfinite(end) else None for end in estimate_median(values))
-    value, low, high = found
+    numbers = (x if np.isfinite(x) else None for x in estimate_median(values))
+    value, low, high = numbers
     return Median(value=value, low=low, high=high)
 
 
@@ -175,25 +187,25 @@ def measure_arm_rows(
 
 
 def order_arm_rows(rows: Sequence[ArmRow], protocol: ArmProtocol) -> ArmResults:
-    """The results in the order of their success rates."""
+    """Order rows by success rate, the highest first, in the results of a protocol."""
     ordered = sorted(rows, key=lambda row: (-sum(row.held), row.controller.key))
     return ArmResults(protocol=protocol, rows=tuple(ordered))
 
 
 def list_arm_headings(results: ArmResults) -> list[str]:
-    """The headings of the table."""
-    return [one.format(trials=results.protocol.trials) for one in HEADINGS] + list(OUTPUTS)
+    """List the headings of the table, with the number of trials."""
+    return [heading.format(trials=results.protocol.trials) for heading in HEADINGS] + list(OUTPUTS)
 
 
 def list_arm_cells(results: ArmResults) -> list[list[str]]:
-    """The cells of the table: a row for each controller, see `INFEASIBLE`."""
+    """List the cells of the table, a row for each controller; see `INFEASIBLE`."""
     held = {row.controller.key: np.array(row.held) for row in results.rows}
     ranks, p_values = rank_held(held)
     table = []
     for row in results.rows:
         key = row.controller.key
         share = estimate_share(sum(row.held), len(row.held))
-        percent = (f"{100.0 * one:.0f}" for one in share)
+        percent = (f"{100.0 * number:.0f}" for number in share)
         value, low, high = percent
         title = row.controller.title + (INFEASIBLE if row.after >= LOUD else "")
         cells = [str(ranks[key]), title, f"{value} ({low}–{high})", str(row.faults)]
@@ -205,13 +217,14 @@ def list_arm_cells(results: ArmResults) -> list[list[str]]:
 def format_median(median: Median) -> str:
     """Format a median with its interval; "fault" if the median is a fault."""
     value, low, high = (
-        "fault" if one is None else f"{one:.2g}" for one in (median.value, median.low, median.high)
+        "fault" if number is None else f"{number:.2g}"
+        for number in (median.value, median.low, median.high)
     )
     return value if value == high == low else f"{value} ({low}–{high})"
 
 
 def format_arm_markdown(results: ArmResults) -> str:
-    """The table as Markdown."""
+    """Format the table of an arm's ranking as Markdown."""
     headings = list_arm_headings(results)
     lines = [headings, ["---"] * len(headings), *list_arm_cells(results)]
     return "\n".join(f"| {' | '.join(cells)} |" for cells in lines)

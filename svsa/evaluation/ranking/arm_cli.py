@@ -56,7 +56,7 @@ def rank_arm(
     protocol = ArmProtocol(
         budget=budget, training=training, validation=validation, trials=trials, seed=seed
     )
-    offered = {one.key: one for one in list_arm_controllers()}
+    offered = {controller.key: controller for controller in list_arm_controllers()}
     for key in rows or ():
         if key not in offered:
             raise ParameterError(Violation("row", key, "", "one of " + ", ".join(offered)))
@@ -65,22 +65,22 @@ def rank_arm(
     known = _read_known(save, protocol)
     done = () if rows else [row.controller for row in known]
     chosen = [offered[key] for key in rows or offered if offered[key] not in done]
-    found = order_arm_rows(known, protocol)
+    results = order_arm_rows(known, protocol)
     with show_progress(Console(stderr=True), "", len(chosen), "") as bar:
 
         def report(controller: "ArmController", share: float) -> None:
             bar(chosen.index(controller) + share, controller.title)
 
-        for found in measure_arm_rows(chosen, protocol, known, report):
+        for results in measure_arm_rows(chosen, protocol, known, report):
             if save is not None:
-                save.write_text(found.model_dump_json(indent=1) + "\n", encoding="utf-8")
+                save.write_text(results.model_dump_json(indent=1) + "\n", encoding="utf-8")
     if as_json:
-        typer.echo(found.model_dump_json(indent=1))
+        typer.echo(results.model_dump_json(indent=1))
     elif markdown:
-        typer.echo(format_arm_markdown(found))
+        typer.echo(format_arm_markdown(results))
     else:
         screen = Console()
-        Console(width=max(screen.width, MIN_WIDTH)).print(_build_table(found), highlight=False)
+        Console(width=max(screen.width, MIN_WIDTH)).print(_build_table(results), highlight=False)
 
 
 def _read_known(save: Path | None, protocol: "ArmProtocol") -> "tuple[ArmRow, ...]":

@@ -41,20 +41,20 @@ def bench(
     figures = tuple(dict.fromkeys(_check_figure(key) for key in figure or BENCH_FIGURES))
     if results is None:
         names = [check_installed(name) for name in laws or list_law_names()]
-        found = _measure(tuple(dict.fromkeys([check_installed(comparison), *names])), figures)
+        runs = _measure(tuple(dict.fromkeys([check_installed(comparison), *names])), figures)
     else:
         shown = read_bench_runs(results)
-        found = shown.choose(tuple(dict.fromkeys([comparison, *(laws or shown.laws)])))
-        found = found.changed(runs=tuple(run for run in found.runs if run.figure in figures))
+        runs = shown.choose(tuple(dict.fromkeys([comparison, *(laws or shown.laws)])))
+        runs = runs.changed(runs=tuple(run for run in runs.runs if run.figure in figures))
     if save is not None:
-        write_bench_runs(save, kept.renew(found) if kept else found)
+        write_bench_runs(save, kept.renew(runs) if kept else runs)
     if as_json:
-        print(json.dumps(found.to_json(comparison), indent=2))
+        print(json.dumps(runs.to_json(comparison), indent=2))
     elif markdown:
-        print(format_bench(found, comparison))
+        print(format_bench(runs, comparison))
     else:
         screen = Console()
-        Console(width=max(screen.width, MIN_WIDTH)).print(build_table(found, comparison))
+        Console(width=max(screen.width, MIN_WIDTH)).print(build_table(runs, comparison))
 
 
 def _check_figure(key: str) -> str:

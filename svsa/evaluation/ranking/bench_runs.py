@@ -30,13 +30,21 @@ class BenchRun(Checked):
     errors: RecoveryErrors = quantity("", "Position errors")
 
     def is_no_worse(self, comparison: "BenchRun", number: str) -> bool:
-        """Whether the number exists and is not greater than the baseline's."""
-        mine, theirs = (getattr(one.errors, number) for one in (self, comparison))
+        """Return whether a number is not greater than the baseline's.
+
+        Args:
+            comparison: The run of the baseline in the same figure.
+            number: A field of `RecoveryErrors`.
+
+        Returns:
+            False if this run has no such number, True if only the baseline has none.
+        """
+        mine, theirs = (getattr(run.errors, number) for run in (self, comparison))
         return mine is not None and (theirs is None or mine <= theirs)
 
 
 class BenchRuns(Checked):
-    """Runs of laws in figures, one after another."""
+    """Runs of laws in the paper's bench figures on the emulator."""
 
     runs: tuple[BenchRun, ...] = quantity("", "One run per law and figure")
 
@@ -51,10 +59,10 @@ class BenchRuns(Checked):
         Raises:
             ParameterError: If the law has none.
         """
-        found = {run.figure: run for run in self.runs if run.law == law}
-        if not found:
+        runs = {run.figure: run for run in self.runs if run.law == law}
+        if not runs:
             raise ParameterError(Violation("law", law, "", "one of " + ", ".join(self.laws)))
-        return tuple(found[key] for key in BENCH_FIGURES if key in found)
+        return tuple(runs[key] for key in BENCH_FIGURES if key in runs)
 
     def choose(self, laws: Sequence[str]) -> Self:
         """Return the runs of these laws, in this order."""
@@ -83,8 +91,8 @@ class BenchRuns(Checked):
     def count_no_worse(self, law: str, comparison: str) -> tuple[int, int]:
         """Count in how many numbers a law is not worse than its baseline, and of how many."""
         pairs = self.pair(law, comparison)
-        held = [one.is_no_worse(other, number) for one, other in pairs for number in NUMBERS]
-        return sum(held), len(held)
+        verdicts = [run.is_no_worse(baseline, n) for run, baseline in pairs for n in NUMBERS]
+        return sum(verdicts), len(verdicts)
 
     def pair(self, law: str, comparison: str) -> tuple[tuple[BenchRun, BenchRun], ...]:
         """Pair the runs of a law with its baseline's, in the figures that both have."""

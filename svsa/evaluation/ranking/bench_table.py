@@ -13,7 +13,16 @@ LONG = dict(zip(NUMBERS, ("rms 1–5 s", "peak", "rms 8–20 s", "recovery"), st
 
 
 def format_run_number(run: BenchRun, number: str, unit: bool = True) -> str:
-    """A number of a run, ° or s; else "fault", or "never" of an error that does not settle."""
+    """Format a number of a run, in degrees or seconds.
+
+    Args:
+        run: The run of a law in a figure.
+        number: A field of `RecoveryErrors`.
+        unit: Whether to append the unit.
+
+    Returns:
+        Three digits; "fault" after a fault, "never" if the error does not settle.
+    """
     value: float | None = getattr(run.errors, number)
     if value is None:
         return "fault" if run.fault else "never"
@@ -80,16 +89,16 @@ def build_section(runs: BenchRuns, law: str) -> list[str]:
         "| --- | --- | --- |",
     ]
     lines += [
-        f"| Figure {one.figure.upper()}: {name} | {format_run_number(one, number)}"
-        f" | {format_run_number(other, number)} |"
-        for one, other in runs.pair(law, PAPERS_LAW)
+        f"| Figure {run.figure.upper()}: {name} | {format_run_number(run, number)}"
+        f" | {format_run_number(baseline, number)} |"
+        for run, baseline in runs.pair(law, PAPERS_LAW)
         for number, name in LONG.items()
     ]
     return ["", *lines, "", *_describe_ends(runs.list_runs(law)), *_describe_count(runs, law)]
 
 
 def _describe_ends(runs: tuple[BenchRun, ...]) -> list[str]:
-    ends = [f"Figure {one.figure.upper()}: {label_fault(one.fault)}" for one in runs if one.fault]
+    ends = [f"Figure {run.figure.upper()}: {label_fault(run.fault)}" for run in runs if run.fault]
     return [f"Ended early by the bench: {'; '.join(ends).lower()}.", ""] if ends else []
 
 

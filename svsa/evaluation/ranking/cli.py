@@ -70,17 +70,17 @@ def run_ranking(
         tuned = {entry.key: entry.tuning for entry in entries}
         done = {row.key for row in known if row.key in tuned and row.tuning == tuned[row.key]}
         keys = [key for key in keys if key not in done]
-    found = Results.build(known, seed, trials, actuator) if known else None
+    results = Results.build(known, seed, trials, actuator) if known else None
     with show_progress(_messages, "", len(keys), "") as bar:
 
         def report(key: str, done: float) -> None:
             bar(keys.index(key) + done, get_entry_title(key))
 
-        for found in measure_entries(keys, seed, trials, known, report, actuator):
+        for results in measure_entries(keys, seed, trials, known, report, actuator):
             if save is not None:
-                write_results(save, found)
-    if found is not None:
-        _print(found, as_json, markdown)
+                write_results(save, results)
+    if results is not None:
+        _print(results, as_json, markdown)
 
 
 @ranking.command("table")

@@ -144,16 +144,17 @@ def _build_table(head: tuple[str, ...], rows: list[tuple[str, ...]]) -> list[str
 def _build_scenarios(row: Row) -> list[str]:
     head = ("scenario", "peak [°]", "stiffness [% of σ_d]", "recovery [s]", "held", "faults")
     rows = []
-    for one in row.scenarios:
+    for outcome in row.scenarios:
         pairs = [
-            " / ".join(write(values[metric]) for values in (one.median, one.worst_values))
+            " / ".join(write(values[metric]) for values in (outcome.median, outcome.worst_values))
             for metric, write in (
                 (PEAK, format_degrees),
                 (SHARE, lambda value: format_number(None if value is None else 100.0 * value)),
                 (RECOVERY, lambda value: "–" if value is None else f"{value:.3g}"),
             )
         ]
-        rows.append((one.title, *pairs, f"{one.held} of {one.runs}", str(one.faults)))
+        held = f"{outcome.held} of {outcome.runs}"
+        rows.append((outcome.title, *pairs, held, str(outcome.faults)))
     return _build_table(head, rows)
 
 
@@ -181,10 +182,12 @@ def _compare_with_ndobc(results: Results, rows: list[Row]) -> list[str]:
         _COMPARED, _read_compared(rows[0]), _read_compared(ndobc), strict=True
     ):
         # A run that ended in a fault has no value; it counts as the worst.
-        values = [math.inf if one is None else one for one in (law_value, ndobc_value)]
+        values = [math.inf if value is None else value for value in (law_value, ndobc_value)]
         if values[0] == values[1]:
             continue
-        shown = " against ".join("fault" if math.isinf(one) else f"{one:.3g}" for one in values)
+        shown = " against ".join(
+            "fault" if math.isinf(value) else f"{value:.3g}" for value in values
+        )
         (worse if values[0] > values[1] else better).append(f"{title} {shown}")
     return [
         "Compared with NDOBC, tuned (medians, without a test of significance):",
@@ -263,10 +266,10 @@ def _build_parameters(law: Law, rows: list[Row]) -> list[str]:
         extra = field.json_schema_extra if isinstance(field.json_schema_extra, dict) else {}
         unit, symbol = str(extra.get("unit", "")), str(extra.get("symbol", "") or name)
         meaning = (field.description or name).removesuffix(f", {unit}")
-        found = [
+        tuned_values = [
             value for label, value in tuned.items() if label == name or label.startswith(name + "[")
         ]
-        values = ", ".join(f"{value:.4g}" for value in found)
+        values = ", ".join(f"{value:.4g}" for value in tuned_values)
         lines.append((symbol, meaning, str(field.default), values, unit))
     head = ("parameter", "", "default", "tuned", "unit")
     return ["", *_build_table(head, lines)] if lines else []
@@ -278,12 +281,13 @@ def _describe_tuning(rows: list[Row]) -> list[str]:
         if row.tuning is None:
             lines.append(f"* {get_entry_title(row.key)}: {VARIANTS[row.variant]}.")
             continue
-        one = row.tuning
+        tuning = row.tuning
         lines.append(
-            f"* {get_entry_title(row.key)}: {one.method}, {one.candidates} candidates on"
-            f" {one.trials} training trials, the best ten on {one.validation} validation trials,"
-            f" seed {one.seed}: {_describe_costs(one.before)} → {_describe_costs(one.after)}."
-            f" Noise limit {one.noise_limit_nm_per_s:.0f} N·m/s."
+            f"* {get_entry_title(row.key)}: {tuning.method}, {tuning.candidates} candidates on"
+            f" {tuning.trials} training trials, the best ten on {tuning.validation} validation"
+            f" trials, seed {tuning.seed}: {_describe_costs(tuning.before)} →"
+            f" {_describe_costs(tuning.after)}."
+            f" Noise limit {tuning.noise_limit_nm_per_s:.0f} N·m/s."
         )
     return lines
 

@@ -65,7 +65,7 @@ class TrialSet:
             if first not in self._parts:
                 scenarios = build_test_set(self.seed, count, first)
                 self._parts[first] = RunSet(
-                    [build_scenario_run(one, PAPERS_LAW, self.actuator) for one in scenarios]
+                    [build_scenario_run(trial, PAPERS_LAW, self.actuator) for trial in scenarios]
                 )
             parts.append(self._parts[first].run(entry.law, DURATION_S, LOAD_S, entry.design))
             report((first + count) / total)
@@ -82,9 +82,9 @@ def measure_entry(entry: Entry, test_set: TrialSet, report: Report = lambda done
         for number, family in enumerate(FAMILIES)
     }
     fixed = build_fixed_scenarios()
-    scenarios = []
-    for number, one in enumerate(fixed, 1):
-        scenarios.append(measure_fixed(entry, one))
+    outcomes = []
+    for number, scenario in enumerate(fixed, 1):
+        outcomes.append(measure_fixed(entry, scenario))
         report(0.7 + 0.25 * number / len(fixed))
     return Row(
         key=entry.key,
@@ -93,14 +93,14 @@ def measure_entry(entry: Entry, test_set: TrialSet, report: Report = lambda done
         version=__version__,
         tuning=entry.tuning,
         families=families,
-        scenarios=tuple(scenarios),
+        scenarios=tuple(outcomes),
         noise=measure_noise(entry),
         largest_load_nm=find_largest_load(entry),
     )
 
 
 def build_family_outcome(summaries: np.ndarray) -> FamilyOutcome:
-    """The outcome of trials from their `SUMMARY`."""
+    """Build the outcome of a family's trials from their `SUMMARY` records, shape (trials,)."""
     held, ended = find_held(summaries), summaries["code"] != INSIDE
     metrics = compute_metrics(summaries, np.full(len(summaries), _get_period()), LOAD_S)
     success = estimate_share(int(held.sum()), len(summaries))
@@ -123,15 +123,16 @@ def build_family_outcome(summaries: np.ndarray) -> FamilyOutcome:
 
 
 def measure_fixed(entry: Entry, fixed: FixedScenario) -> ScenarioOutcome:
-    """The outcome of a fixed scenario over its variants."""
-    summaries = np.concatenate([run_scenario(entry, one) for one in fixed.variants])
+    """Run an entry in all variants of a fixed scenario; return faults, success and metrics."""
+    summaries = np.concatenate([run_scenario(entry, variant) for variant in fixed.variants])
     ended = summaries["code"] != INSIDE
-    found = [
-        compute_metrics(summaries[n : n + 1], np.array([_get_period()]), one.measured_s)
-        for n, one in enumerate(fixed.variants)
+    variant_metrics = [
+        compute_metrics(summaries[n : n + 1], np.array([_get_period()]), variant.measured_s)
+        for n, variant in enumerate(fixed.variants)
     ]
     metrics = {
-        name: _mark_ended(np.concatenate([one[name] for one in found]), ended) for name in METRICS
+        name: _mark_ended(np.concatenate([values[name] for values in variant_metrics]), ended)
+        for name in METRICS
     }
     peaks = metrics["peak_position_error_rad"]
     return ScenarioOutcome(
@@ -150,14 +151,14 @@ def measure_fixed(entry: Entry, fixed: FixedScenario) -> ScenarioOutcome:
 
 
 def run_scenario(entry: Entry, scenario: Scenario) -> np.ndarray:
-    """`SUMMARY` (1,) of an entry's run of a scenario, from `measured_s` on."""
+    """Run an entry in a scenario; return its `SUMMARY`, shape (1,), from `measured_s` on."""
     result = simulate(entry.build_configuration(scenario), duration_s=scenario.duration_s)
     return summarize_result(result, scenario.measured_s, scenario.duration_s)
 
 
 def measure_noise(entry: Entry) -> Noise:
-    """The torque at rest, mean of `build_rest`."""
-    runs = RunSet([build_scenario_run(one, PAPERS_LAW, entry.actuator) for one in build_rest()])
+    """Measure the torque u1 at rest with sensor noise: mean over the runs of `build_rest`."""
+    runs = RunSet([build_scenario_run(trial, PAPERS_LAW, entry.actuator) for trial in build_rest()])
     summaries = runs.run(entry.law, 2.0 * REST_BEGIN_S, REST_BEGIN_S, entry.design)
     if np.any(summaries["code"] != INSIDE):
         return Noise(rms_nm=None, variation_nm_per_s=None)
@@ -176,7 +177,7 @@ def find_largest_load(entry: Entry) -> float:
     most = min(MAX_STEP_NM, MAX_TORQUE_NM / scale)
     while (count + 1) * STEP_NM <= most:
         fixed = build_link_steps((count + 1) * STEP_NM)
-        if not all(find_held(run_scenario(entry, one))[0] for one in fixed.variants):
+        if not all(find_held(run_scenario(entry, variant))[0] for variant in fixed.variants):
             break
         count += 1
     return count * STEP_NM * scale

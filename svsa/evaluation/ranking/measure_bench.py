@@ -68,7 +68,7 @@ def measure_run(number: int, job: Job, report: ReportOf) -> BenchRun:
 
 
 def build_recovery_errors(result: Result) -> RecoveryErrors:
-    """The errors of a figure's run of 20 s with its load at 5 s."""
+    """Compute the position errors of a run of 20 s in a figure of the paper, load at 5 s."""
     numbers = compute_table_row(result)
     return RecoveryErrors(
         before_deg=numbers["rms_position_before_deg"],
@@ -88,34 +88,36 @@ def _measure_side_by_side(
     manager = SyncManager(ctx=choose_start())
     manager.start(signal.signal, (signal.SIGINT, signal.SIG_IGN))
     with manager, start_workers(workers) as pool:
-        reported, ends = manager.Queue(), manager.Event()
-        asked = [pool.submit(_measure_apart, n, job, reported, ends) for n, job in enumerate(jobs)]
+        progress, ends = manager.Queue(), manager.Event()
+        futures = [
+            pool.submit(_measure_apart, n, job, progress, ends) for n, job in enumerate(jobs)
+        ]
         try:
-            while wait(asked, POLL_S).not_done and not any(map(_has_failed, asked)):
-                _pass_on(reported, report)
-            _pass_on(reported, report)
-            return tuple(one.result() for one in asked)
+            while wait(futures, POLL_S).not_done and not any(map(_has_failed, futures)):
+                _pass_on(progress, report)
+            _pass_on(progress, report)
+            return tuple(future.result() for future in futures)
         finally:
             ends.set()
             pool.shutdown(cancel_futures=True)
 
 
-def _has_failed(asked: Future[BenchRun]) -> bool:
-    return asked.done() and asked.exception() is not None
+def _has_failed(future: Future[BenchRun]) -> bool:
+    return future.done() and future.exception() is not None
 
 
-def _pass_on(reported: Queue[tuple[int, float]], report: ReportOf) -> None:
-    while not reported.empty():
-        report(*reported.get())
+def _pass_on(progress: Queue[tuple[int, float]], report: ReportOf) -> None:
+    while not progress.empty():
+        report(*progress.get())
 
 
 def _measure_apart(
-    number: int, job: Job, reported: Queue[tuple[int, float]], ends: Event
+    number: int, job: Job, progress: Queue[tuple[int, float]], ends: Event
 ) -> BenchRun:
     def report(number: int, share: float) -> None:
         if ends.is_set():
             raise KeyboardInterrupt
-        reported.put((number, share))
+        progress.put((number, share))
 
     report(number, 0.0)
     return measure_run(number, job, report)

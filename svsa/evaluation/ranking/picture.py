@@ -39,7 +39,7 @@ def save_pareto(results: Results, path: Path) -> None:
         numbers = [family.get_median(name) for name in (RMS, STIFFNESS_RMS, TORQUE_RMS)]
         if None in numbers:
             continue
-        position, stiffness, torque = (float(one or 0.0) for one in numbers)
+        position, stiffness, torque = (float(number or 0.0) for number in numbers)
         style = style_law(row.law)
         color = "#444444" if row.key == DECLARED else style["color"]
         axes.scatter(np.degrees(position), stiffness, s=60.0 * torque, color=color, alpha=0.7)
@@ -107,8 +107,8 @@ def save_law(results: Results, key: str, path: Path) -> None:
     keys = (get_reference(key), key)
     for number, name in enumerate(keys):
         style = {"color": "#444444" if number == 0 else COLORS[0], "linewidth": 1.5}
-        for axes, one in shown:
-            _draw_run(axes, one, name, style)
+        for axes, panel in shown:
+            _draw_run(axes, panel, name, style)
         for family, line in (("A", "-"), ("B", "--")):
             label = f"{get_entry_title(name)}, {family}"
             outcome = results.get_row(name).families[family]
@@ -141,10 +141,10 @@ def _draw_run(axes: Axes, shown: Panel, key: str, style: dict[str, Any]) -> None
     time, degrees = result.time_s[rows], np.degrees(result.position_error_rad[rows])
     axes.plot(time, degrees, label=get_entry_title(key), **style)
     if result.fault is not None and len(time) and result.time_s[-1] < shown.window[1]:
-        reported = label_fault(result.fault.code).lower()
+        label = label_fault(result.fault.code).lower()
         axes.plot(time[-1], degrees[-1], "X", color=style["color"], markersize=9)
         axes.annotate(
-            reported, (time[-1], degrees[-1]), (9, -3), textcoords="offset points", fontsize=8,
+            label, (time[-1], degrees[-1]), (9, -3), textcoords="offset points", fontsize=8,
             color=style["color"],
         )  # fmt: skip
     axes.set(title=shown.title, xlabel="Time [s]", xlim=shown.window)

@@ -31,7 +31,7 @@ _NOT_IMPLEMENTED = (
 
 
 def build_index(results: Results, bench: BenchRuns) -> str:
-    """The table of laws, and those that ran on the emulator."""
+    """Build the index of the laws in Markdown: ranking, summaries, results on the emulator."""
     lines = [
         "# The laws",
         "",
@@ -87,14 +87,14 @@ def describe_results(results: Results) -> str:
         f" {get_title(PAPERS_LAW)}, {len(worse)} significantly fewer.",
     ]
     for key in (DECLARED, PAPERS_LAW, "ndobc_s", "ndobc_w"):
-        row = next((one for one in results.rows if one.key == key), None)
+        row = next((row for row in results.rows if row.key == key), None)
         if row is not None:
             lines.append(f"* {_describe_row(row)}")
     return "\n".join(lines)
 
 
 def _describe_row(row: Row) -> str:
-    """Recovery, faults, stiffness error and effort of a row."""
+    """Describe recovery, faults, stiffness error and effort of a row in a sentence."""
     rig, family = row.get_outcome(PAPERS_LOAD), row.families["A"]
     removal, recovery = row.get_outcome("load_removal"), rig.median[RECOVERY]
     stiffness = family.get_median("rms_stiffness_error_nm_per_rad")

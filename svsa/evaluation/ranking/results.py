@@ -53,7 +53,17 @@ class Results(Checked):
 
     @classmethod
     def build(cls, rows: Sequence[Row], seed: int, trials: int, actuator: str = SVSA) -> Self:
-        """The results of rows that were measured on the same test set."""
+        """Build the results of rows that were measured on the same test set.
+
+        Args:
+            rows: The rows, in any order.
+            seed: Seed of the test set.
+            trials: Number of trials of each family.
+            actuator: Name of the actuator that the trials were scaled to.
+
+        Returns:
+            The rows in the order of their success rates, with their ranks.
+        """
         ordered = sorted(rows, key=lambda row: (-_read_held(row).mean(), row.key))
         return cls(
             protocol=PROTOCOL,
@@ -79,7 +89,7 @@ class Results(Checked):
         raise ParameterError(Violation("row", key, "", bound))
 
     def get_rank(self, key: str) -> Rank:
-        """The rank of the row of this key."""
+        """Return the rank of the row of this key."""
         return next(rank for rank in self.ranks if rank.key == key)
 
 
@@ -108,6 +118,9 @@ def rank_held(held: Mapping[str, np.ndarray]) -> tuple[dict[str, int], dict[str,
 
     Args:
         held: Success of each trial, (trials,), by the key of the row.
+
+    Returns:
+        Ranks by key, from 1; p-values by key, empty without a row of NDOBC.
     """
     ranks: dict[str, int] = {}
     left = list(held)
@@ -125,20 +138,21 @@ def rank_held(held: Mapping[str, np.ndarray]) -> tuple[dict[str, int], dict[str,
 
 def _read_held(row: Row) -> np.ndarray:
     """Read the success of each trial, (trials,), family after family."""
-    return np.concatenate(
-        [
-            np.unpackbits(np.frombuffer(bytes.fromhex(one.held_bits), np.uint8))[: one.trials]
-            for one in (row.families[family] for family in FAMILIES)
-        ]
-    ).astype(bool)
+    held = []
+    for family in FAMILIES:
+        outcome = row.families[family]
+        packed = np.frombuffer(bytes.fromhex(outcome.held_bits), np.uint8)
+        held.append(np.unpackbits(packed)[: outcome.trials])
+    return np.concatenate(held).astype(bool)
 
 
-def _count_only(one: np.ndarray | None, other: np.ndarray | None) -> int:
-    return 0 if one is None or other is None else int(np.sum(one & ~other))
+def _count_only(held: np.ndarray | None, other: np.ndarray | None) -> int:
+    """Count the trials, (trials,), in which only the first of two rows succeeded."""
+    return 0 if held is None or other is None else int(np.sum(held & ~other))
 
 
-def _compute_p(one: np.ndarray, other: np.ndarray) -> float:
-    return compute_mcnemar_p(_count_only(one, other), _count_only(other, one))
+def _compute_p(held: np.ndarray, other: np.ndarray) -> float:
+    return compute_mcnemar_p(_count_only(held, other), _count_only(other, held))
 
 
 def measure_entries(

@@ -33,7 +33,7 @@ class FamilyOutcome(Checked):
     )
 
     def get_median(self, metric: str) -> float | None:
-        """The median of a metric."""
+        """Return the median of a metric over the trials; None if it is not finite."""
         return self.metrics[metric][QUANTILES.index(0.5)]
 
 
@@ -75,5 +75,5 @@ class Row(Checked):
     )
 
     def get_outcome(self, scenario: str) -> ScenarioOutcome:
-        """The outcome of a fixed scenario."""
-        return next(one for one in self.scenarios if one.scenario == scenario)
+        """Return the outcome of the fixed scenario of this name."""
+        return next(outcome for outcome in self.scenarios if outcome.scenario == scenario)

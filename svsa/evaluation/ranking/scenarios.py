@@ -163,12 +163,12 @@ def _build_repetitive() -> FixedScenario:
     }
     variants = []
     for (kind, (load, values)), sign in product(tracks.items(), SIGNS):
-        given = {"torque_nm": (1.5 * sign, 0.0, 0.0)} if kind == "sine" else {}
+        torque = {"torque_nm": (1.5 * sign, 0.0, 0.0)} if kind == "sine" else {}
         variants.append(
             Scenario(
                 f"repetitive.{kind}_{SIGN_NAMES[sign]}.0",
                 f"{title}: {kind}, {SIGN_NAMES[sign]} sign",
-                (load(start_s=0.0, **values, **given),),
+                (load(start_s=0.0, **values, **torque),),
                 RIG,
                 REPEATED_PERIODS * PERIOD_S,
                 LEARNED_PERIODS * PERIOD_S,

@@ -29,36 +29,37 @@ HEADINGS = (
 
 
 def format_success(family: FamilyOutcome) -> str:
-    """A success rate with its interval, in per cent."""
+    """Format the success rate of a family with its 95 % interval, in per cent."""
     low, high = 100.0 * family.success_low, 100.0 * family.success_high
     return f"{100.0 * family.success:.1f} ({low:.1f}–{high:.1f})"
 
 
 def format_number(value: float | None, digits: int = 3) -> str:
-    """A number to three digits; "fault" for None."""
+    """Format a number to `digits` digits; "fault" for None."""
     return FAULT if value is None else f"{value:.{digits}g}"
 
 
 def format_degrees(value: float | None) -> str:
-    """An angle in degrees; "fault" for None."""
+    """Format an angle, rad, in degrees; "fault" for None."""
     return format_number(None if value is None else value * 57.29577951308232)
 
 
-def format_fixed(one: ScenarioOutcome) -> str:
-    """Median and worst peak of a fixed scenario in degrees, and its faults."""
-    faults = f", {one.faults} of {one.runs}" if one.faults else ""
-    return f"{format_degrees(one.median[PEAK])} / {format_degrees(one.worst_values[PEAK])}{faults}"
+def format_fixed(outcome: ScenarioOutcome) -> str:
+    """Format median and worst peak of a fixed scenario in degrees, and its faults if any."""
+    median, worst = outcome.median[PEAK], outcome.worst_values[PEAK]
+    faults = f", {outcome.faults} of {outcome.runs}" if outcome.faults else ""
+    return f"{format_degrees(median)} / {format_degrees(worst)}{faults}"
 
 
 def format_p(value: float | None) -> str:
-    """A p-value; empty for none."""
+    """Format a p-value; empty for None."""
     if value is None:
         return ""
     return "< 0.001" if value < 0.001 else f"{value:.2g}"
 
 
 def build_cells(results: Results, row: Row) -> tuple[str, ...]:
-    """The cells of a row."""
+    """Build the cells of a row of the ranking's table, in the order of `HEADINGS`."""
     rank = results.get_rank(row.key)
     return (
         str(rank.rank),
@@ -72,7 +73,7 @@ def build_cells(results: Results, row: Row) -> tuple[str, ...]:
 
 
 def format_markdown(results: Results, rows: Iterable[Row] | None = None) -> str:
-    """The table as Markdown."""
+    """Format the ranking's table as Markdown; without `rows`, all rows of the results."""
     shown = results.rows if rows is None else rows
     lines = [HEADINGS, ("---",) * len(HEADINGS), *(build_cells(results, row) for row in shown)]
     return "\n".join(f"| {' | '.join(cells)} |" for cells in lines)
