@@ -78,10 +78,10 @@ def measure_scale(name: str) -> ActuatorScale:
         ParameterError: If it is not installed.
     """
     mechanism, svsa = get_mechanism(name), get_mechanism(SVSA)
-    largest, of_svsa = (_find_largest_torque(one) for one in (mechanism, svsa))
+    largest, largest_svsa = map(_find_largest_torque, (mechanism, svsa))
     return ActuatorScale(
         name,
-        _settle(largest / of_svsa),
+        _settle(largest / largest_svsa),
         # An actuator without a stiffness motor has no torque on its second body.
         _settle(mechanism.limits.torque2_nm / svsa.limits.torque2_nm)
         if mechanism.has_stiffness_motor
@@ -105,15 +105,15 @@ def build_scenario_run(scenario: Scenario, law: str, actuator: str = SVSA) -> Co
     Raises:
         ParameterError: If no actuator or law of that name is installed.
     """
-    given = scenario.build_configuration(law)
+    configuration = scenario.build_configuration(law)
     if actuator == SVSA:
-        return given
+        return configuration
     mechanism, scale = get_mechanism(actuator), measure_scale(actuator)
     changed = read_mechanism(actuator) | {
-        "stiffness": _scale_stiffness(given.stiffness, mechanism),
-        "position": _scale_position(given.position, mechanism, scale),
-        "loads": tuple(_scale_load(one, scale) for one in given.loads),
-        "effects": _scale_effects(given.effects, scale),
+        "stiffness": _scale_stiffness(configuration.stiffness, mechanism),
+        "position": _scale_position(configuration.position, mechanism, scale),
+        "loads": tuple(_scale_load(load, scale) for load in configuration.loads),
+        "effects": _scale_effects(configuration.effects, scale),
     }
     if scenario.plant:
         nominal, plant = mechanism.nominal, {}
@@ -121,11 +121,19 @@ def build_scenario_run(scenario: Scenario, law: str, actuator: str = SVSA) -> Co
             field = scale.spring if name == _SPRING else name
             plant[field] = ratio * getattr(nominal, field)
         changed["actuator"] = nominal.changed(**plant)
-    return given.changed(**changed)
+    return configuration.changed(**changed)
 
 
 def scale_stiffness(mechanism: Mechanism, sigma: float) -> float:
-    """Map a stiffness of the SVSA to the range of an actuator, N·m/rad."""
+    """Map a stiffness of the SVSA to the range of an actuator, by ln σ.
+
+    Args:
+        mechanism: The actuator.
+        sigma: Stiffness of the SVSA, N·m/rad.
+
+    Returns:
+        Its stiffness, N·m/rad; the only one of an actuator without a stiffness motor.
+    """
     only = find_only_stiffness(mechanism.nominal)
     if only is not None:
         return only
@@ -156,11 +164,11 @@ def scale_rate(value: float, axis: Axis, actuator: str) -> float:
     return min(max(ratio * value, axis.low), axis.high)
 
 
-def _scale_stiffness(given: Any, mechanism: Mechanism) -> Any:
-    match given:
+def _scale_stiffness(reference: Any, mechanism: Mechanism) -> Any:
+    match reference:
         case ConstantStiffness(stiffness_nm_per_rad=sigma):
             scaled = scale_stiffness(mechanism, sigma)
-            return given.changed(stiffness_nm_per_rad=scaled)
+            return reference.changed(stiffness_nm_per_rad=scaled)
         case SineStiffness(offset_nm_per_rad=middle, amplitude_nm_per_rad=amplitude):
             low, high = (
                 scale_stiffness(mechanism, middle + way * amplitude) for way in (-1.0, 1.0)
@@ -168,31 +176,31 @@ def _scale_stiffness(given: Any, mechanism: Mechanism) -> Any:
             if low == high:
                 return ConstantStiffness(stiffness_nm_per_rad=low)
             offset, size = 0.5 * (low + high), 0.5 * (high - low)
-            return given.changed(offset_nm_per_rad=offset, amplitude_nm_per_rad=size)
-    raise _reject(given)
+            return reference.changed(offset_nm_per_rad=offset, amplitude_nm_per_rad=size)
+    raise _reject(reference)
 
 
-def _scale_position(given: Any, mechanism: Mechanism, scale: ActuatorScale) -> Any:
+def _scale_position(reference: Any, mechanism: Mechanism, scale: ActuatorScale) -> Any:
     highest = MOTION_SHARE * scale.largest_nm / mechanism.nominal.link_inertia_kg_m2
-    match given:
+    match reference:
         case SinePosition(frequency_hz=frequency, amplitude_rad=amplitude) if frequency:
             most = highest / (2.0 * math.pi * frequency) ** 2
             amplitude = min(amplitude, _settle(most))
-            way = math.cos(given.phase_rad)  # sign of the first motion
+            way = math.cos(reference.phase_rad)  # sign of the first motion
             side = 1.0 if way > 0.0 else -1.0
-            return given.changed(
+            return reference.changed(
                 amplitude_rad=amplitude,
                 phase_rad=-side * 0.5 * math.pi,
-                offset_rad=given.offset_rad + side * amplitude,
+                offset_rad=reference.offset_rad + side * amplitude,
             )
         case StepsPosition(time_s=times, position_rad=levels, rise_s=rise):
             largest = max(
-                abs(one - other) for one, other in zip(levels[1:], levels[:-1], strict=True)
+                abs(level - last) for level, last in zip(levels[1:], levels[:-1], strict=True)
             )
             slow = max(rise, _settle(math.sqrt(_JERK_PEAK * largest / highest)))
-            gaps = (one - other for one, other in zip(times[1:], times[:-1], strict=True))
-            return given.changed(rise_s=min(slow, *gaps))
-    return given
+            gaps = (time - last for time, last in zip(times[1:], times[:-1], strict=True))
+            return reference.changed(rise_s=min(slow, *gaps))
+    return reference
 
 
 def _scale_load(load: Load, scale: ActuatorScale) -> Load:
@@ -245,7 +253,7 @@ def _find_spring(mechanism: Mechanism) -> str:
     s, phi = mechanism.coordinate[1], 0.5 * mechanism.limits.deflection_max_rad
 
     def compute(number: int, factor: float) -> float:
-        scaled = [one * (factor if i == number else 1.0) for i, one in enumerate(values)]
+        scaled = [value * (factor if i == number else 1.0) for i, value in enumerate(values)]
         return energy(s, phi, *scaled, *[0.0] * (MAX_ELASTIC - len(values)))
 
     for number, name in enumerate(mechanism.elastic):
@@ -263,5 +271,6 @@ def _settle(value: float, digits: int = _DIGITS) -> float:
     return float(f"{value:.{digits}g}")
 
 
-def _reject(given: Checked) -> TypeError:
-    return TypeError(f"A scenario has no rule to scale {type(given).__name__} to another actuator.")
+def _reject(part: Checked) -> TypeError:
+    """Build the error for a reference or load of a scenario that has no rule."""
+    return TypeError(f"A scenario has no rule to scale {type(part).__name__} to another actuator.")

@@ -64,9 +64,15 @@ class Collision(NamedTuple):
 def build_collision(
     direction: int, wall_n_per_m: float, damping_ns_per_m: float
 ) -> "tuple[TipMove, Wall]":
-    """A straight movement of the tip by 0.4 m, and a wall 0.1 m before its end.
+    """Build a straight movement of the tip by 0.4 m, and a wall 0.1 m before its end.
 
-    direction: 1 or −1, of the movement along x. The others: contact stiffness and damping.
+    Args:
+        direction: 1 or −1, of the movement along x.
+        wall_n_per_m: Contact stiffness of the wall, N/m.
+        damping_ns_per_m: Contact damping of the wall, N·s/m.
+
+    Returns:
+        The movement and the wall.
     """
     from svsa.simulation.arm.tip_reference import TipMove
     from svsa.simulation.plant.loads.tip import Wall
@@ -99,6 +105,9 @@ def measure_collision(
         direction: 1 or −1, of the movement along x.
         wall_n_per_m: Contact stiffness of the wall, N/m.
         damping_ns_per_m: Contact damping of the wall, N·s/m.
+
+    Returns:
+        Speed, forces, work and signals of the collision.
     """
     # Imported here: every command of `svsa` imports this file.
     from svsa.actuators.arm.parameters import RODS
@@ -122,8 +131,8 @@ def measure_collision(
     force = -direction * run.wall_force_n[:, 0]
     period, fault = run.configuration.sampling.period_s, run.fault and run.fault.code
     if not np.any(force > 0.0):
-        no, none = math.nan, np.empty(0)
-        return Collision(stiffness, direction, no, no, no, no, no, fault, none, none, none)
+        nan, empty = math.nan, np.empty(0)
+        return Collision(stiffness, direction, nan, nan, nan, nan, nan, fault, empty, empty, empty)
     first = int(np.argmax(force > 0.0))
     time, pushed, done = run.time_s[first:] - run.time_s[first], force[first:], x[first:]
     work = np.cumsum(0.5 * (pushed[1:] + pushed[:-1]) * np.diff(done))
@@ -148,15 +157,16 @@ def draw_collisions(collisions: Sequence[Collision]) -> "Figure":
 
     from svsa.runs.result.plot import label_axes
 
-    directions = list(dict.fromkeys(one.direction for one in collisions))
+    directions = list(dict.fromkeys(collision.direction for collision in collisions))
     figure = Figure(figsize=(9.0, 2.9 * len(directions)), layout="constrained")
     grid = figure.subplots(len(directions), 2, sharey=True, squeeze=False)
     for (left, right), direction in zip(grid, directions, strict=True):
-        for one in collisions:
-            if one.direction == direction:
-                label = f"σ = {one.stiffness_nm_per_rad:g}"
-                left.plot(one.time_s, one.force_n, linewidth=1.2)
-                right.plot(1000.0 * one.depth_m, one.force_n, linewidth=1.2, label=label)
+        for collision in collisions:
+            if collision.direction == direction:
+                force_n, depth_mm = collision.force_n, 1000.0 * collision.depth_m
+                label = f"σ = {collision.stiffness_nm_per_rad:g}"
+                left.plot(collision.time_s, force_n, linewidth=1.2)
+                right.plot(depth_mm, force_n, linewidth=1.2, label=label)
         sign = "+" if direction > 0 else "−"
         label_axes(left, f"Force, motion along {sign}x [N]")
         label_axes(right, "")
@@ -181,7 +191,7 @@ def arm_collision(
     """Let the tip of an arm collide with a wall at several stiffnesses, in both directions."""
     check_picture("--plot", plot)
     try:
-        found = [
+        collisions = [
             measure_collision(law, stiffness, direction, wall, damping)
             for direction in DIRECTIONS
             for stiffness in STIFFNESSES_NM_PER_RAD
@@ -190,26 +200,32 @@ def arm_collision(
         Console(stderr=True).print(f"Error: {error}", style="bold red", markup=False)
         raise typer.Exit(2) from None
     if plot is not None:
-        draw_collisions(found).savefig(plot, dpi=110)
+        draw_collisions(collisions).savefig(plot, dpi=110)
     if as_json:
-        typer.echo(json.dumps([_describe(one) for one in found]))
+        typer.echo(json.dumps([_describe(collision) for collision in collisions]))
         return
-    Console().print(_build_table(law, found), highlight=False)
+    Console().print(_build_table(law, collisions), highlight=False)
 
 
-def _describe(one: Collision) -> dict[str, object]:
-    """The numbers and the fault of a collision, for JSON."""
-    found = {name: value for name, value in one._asdict().items() if np.ndim(value) == 0}
-    return {name: None if value != value else value for name, value in found.items()}
+def _describe(collision: Collision) -> dict[str, object]:
+    """Convert numbers and fault of a collision, without its signals, to JSON; NaN is None."""
+    scalars = {name: value for name, value in collision._asdict().items() if np.ndim(value) == 0}
+    return {name: None if value != value else value for name, value in scalars.items()}
 
 
 def _build_table(law: str, collisions: Sequence[Collision]) -> Table:
     heads = ("σ [N·m/rad]", "direction", "speed [m/s]", "impact [N]", "peak [N]", "work [J]")
     table = Table(*heads, "holding [N]", title=f"Collision with a wall: {get_title(law)}")
-    for one in collisions:
-        numbers = (one.speed_m_per_s, one.impact_n, one.peak_n, one.work_j, one.holding_n)
-        missing = "no contact" if one.fault is None else "fault"
+    for collision in collisions:
+        numbers = (
+            collision.speed_m_per_s,
+            collision.impact_n,
+            collision.peak_n,
+            collision.work_j,
+            collision.holding_n,
+        )
+        missing = "no contact" if collision.fault is None else "fault"
         cells = (f"{number:.3g}" if math.isfinite(number) else missing for number in numbers)
-        sign = "+x" if one.direction > 0 else "−x"
-        table.add_row(f"{one.stiffness_nm_per_rad:g}", sign, *cells)
+        sign = "+x" if collision.direction > 0 else "−x"
+        table.add_row(f"{collision.stiffness_nm_per_rad:g}", sign, *cells)
     return table

@@ -27,9 +27,9 @@ _STIFFNESS_POLE = 40.0
 
 
 class ArmMap(NamedTuple):
-    """Of one controller: rms position error under the load, over tip mass and stiffness.
+    """The rms position error of a controller under load, over tip mass and stiffness.
 
-    The greater one of both joints, from 8 to 20 s; infinite where the run ended in a fault.
+    The error is that of the worse joint from 8 to 20 s; infinite if the run ended in a fault.
 
     Attributes:
         title: Name of the controller.
@@ -51,9 +51,17 @@ def measure_arm_map(
     masses: Sequence[float] = MASSES_KG,
     stiffnesses: Sequence[float] = STIFFNESSES_NM_PER_RAD,
 ) -> ArmMap:
-    """Simulate an arm for every tip mass, kg, that comes at 5 s, and stiffness, N·m/rad.
+    """Simulate an arm for every tip mass and stiffness; the mass is added at 5 s.
 
-    settings: of `simulate_arm`.
+    Args:
+        law: Name of the law of both joints.
+        settings: Further arguments of `simulate_arm`.
+        title: Name of the controller.
+        masses: Tip masses, kg.
+        stiffnesses: Stiffnesses of both joints, N·m/rad.
+
+    Returns:
+        The map of rms position errors.
     """
     # Imported here: every command of `svsa` imports this file.
     from svsa.runs.result.simulate_arm import simulate_arm
@@ -72,7 +80,11 @@ def measure_arm_map(
 def draw_arm_maps(maps: Sequence[ArmMap]) -> "Figure":
     """Draw a panel for each controller; needs the extra `plot`. A cross is a fault.
 
-    maps: of the same masses and stiffnesses.
+    Args:
+        maps: Maps with equal masses and stiffnesses.
+
+    Returns:
+        The Matplotlib figure.
     """
     from matplotlib.colors import LogNorm
     from matplotlib.figure import Figure
@@ -82,15 +94,16 @@ def draw_arm_maps(maps: Sequence[ArmMap]) -> "Figure":
     figure = Figure(figsize=(4.2 * width, 2.9 * height + 0.4), layout="constrained")
     axes = np.atleast_1d(figure.subplots(height, width, sharex=True, sharey=True)).ravel()
     shown: Any = None
-    for axis, one in zip(axes, maps, strict=False):
-        found = np.ma.masked_invalid(one.errors_deg)
+    for axis, error_map in zip(axes, maps, strict=False):
+        errors = np.ma.masked_invalid(error_map.errors_deg)
         shown = axis.imshow(
-            found, norm=LogNorm(0.01, 30.0), cmap="viridis_r", origin="lower", aspect="auto"
+            errors, norm=LogNorm(0.01, 30.0), cmap="viridis_r", origin="lower", aspect="auto"
         )
-        for i, j in np.argwhere(~np.isfinite(one.errors_deg)):
+        for i, j in np.argwhere(~np.isfinite(error_map.errors_deg)):
             axis.plot(j, i, "x", color="tab:red", markersize=5)
-        axis.set_title(one.title, fontsize=10)
-        columns, rows = map(_list_labels, (one.masses_kg, one.stiffnesses_nm_per_rad))
+        axis.set_title(error_map.title, fontsize=10)
+        columns = _list_labels(error_map.masses_kg)
+        rows = _list_labels(error_map.stiffnesses_nm_per_rad)
         axis.set_xticks(range(len(columns)), columns, fontsize=7)
         axis.set_yticks(range(len(rows)), rows, fontsize=8)
     for axis in axes[len(maps) :]:
@@ -138,9 +151,12 @@ def arm_map(
     if plot is not None:
         draw_arm_maps(maps).savefig(plot, dpi=110)
     if as_json:
-        found = {one.title: [[_plain(e) for e in row] for row in one.errors_deg] for one in maps}
+        errors = {
+            error_map.title: [[_plain(error) for error in row] for row in error_map.errors_deg]
+            for error_map in maps
+        }
         axes = {"tip_mass_kg": MASSES_KG, "stiffness_nm_per_rad": STIFFNESSES_NM_PER_RAD}
-        typer.echo(json.dumps(axes | {"rms_position_error_deg": found}))
+        typer.echo(json.dumps(axes | {"rms_position_error_deg": errors}))
         return
     Console().print(*map(_build_table, maps), highlight=False)
 
@@ -153,11 +169,11 @@ def _plain(error: float) -> float | None:
     return float(error) if math.isfinite(error) else None
 
 
-def _build_table(one: ArmMap) -> Table:
-    title = f"{one.title}: rms position error [°] over σ [N·m/rad] and tip mass [kg]"
-    table = Table("σ", *_list_labels(one.masses_kg), title=title, padding=0)
-    labels = _list_labels(one.stiffnesses_nm_per_rad)
-    for label, row in zip(labels, one.errors_deg, strict=True):
+def _build_table(error_map: ArmMap) -> Table:
+    title = f"{error_map.title}: rms position error [°] over σ [N·m/rad] and tip mass [kg]"
+    table = Table("σ", *_list_labels(error_map.masses_kg), title=title, padding=0)
+    labels = _list_labels(error_map.stiffnesses_nm_per_rad)
+    for label, row in zip(labels, error_map.errors_deg, strict=True):
         cells = (f"{error:.2g}" if math.isfinite(error) else "fault" for error in row)
         table.add_row(label, *cells)
     return table

@@ -88,14 +88,14 @@ def compute_metrics(
 
     recovered = np.where(summaries["recovered"] < 0.0, np.nan, summaries["recovered"])
     tally = {name: summaries[name] for name in Tally._fields}
-    found = derive_metrics(tally, counts, periods) | {
+    metrics = derive_metrics(tally, counts, periods) | {
         "last_position_error_rad": np.abs(summaries["position_last"]) * (counts / counts),
         "steady_state_position_error_rad": measure_steady_state("steady_state_squares"),
         "recovery_time_s": recovered * periods,
         "steady_state_stiffness_error_nm_per_rad": measure_steady_state("stiffness_steady_squares"),
         "limit_share": summaries["limited"] / counts,
     }
-    return {name: found[name] for name in METRICS}
+    return {name: metrics[name] for name in METRICS}
 
 
 def find_held(summaries: np.ndarray) -> np.ndarray:

@@ -24,7 +24,7 @@ LAWS = ("fl", "ndobc")
 
 
 class Reproduction(NamedTuple):
-    """One figure and law: the run and the numbers of the table."""
+    """A figure of the paper run under one law: the run, and its numbers for the table."""
 
     figure: str
     law: str
@@ -51,11 +51,14 @@ def reproduce(
         ParameterError: If a figure does not exist.
     """
     runs: list[tuple[str, str]] = [(get_figure(key).key, law) for key in figures for law in LAWS]
-    found = []
+    reproductions = []
     for number, (key, law) in enumerate(runs):
-        found.append(_run_figure(key, law, lambda done, n=number: progress((n + done) / len(runs))))
+        reproduction = _run_figure(
+            key, law, lambda done, n=number: progress((n + done) / len(runs))
+        )
+        reproductions.append(reproduction)
         progress((number + 1) / len(runs))
-    return found
+    return reproductions
 
 
 def _run_figure(key: str, law: str, progress: Callable[[float], None]) -> Reproduction:

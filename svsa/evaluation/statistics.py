@@ -93,8 +93,8 @@ def estimate_paired_share(only_one: int, only_other: int, pairs: int) -> Interva
         inner = value + math.copysign(_NEAR, end)
         if abs(inner) >= 1.0:
             return end
-        found: Any = brentq(compute_excess, inner, end, (-end * NORMAL_QUANTILE,), xtol=1e-14)
-        return float(found)
+        zero: Any = brentq(compute_excess, inner, end, (-end * NORMAL_QUANTILE,), xtol=1e-14)
+        return float(zero)
 
     return Interval(value, find_end(-1.0), find_end(1.0))
 
@@ -134,8 +134,8 @@ def compute_signed_rank_p(differences: np.ndarray) -> float:
         return 1.0
     from scipy.stats import wilcoxon  # imported here: the import is slow
 
-    found: Any = wilcoxon(differences)
-    return float(found.pvalue)
+    test: Any = wilcoxon(differences)
+    return float(test.pvalue)
 
 
 def correct_holm(p_values: Sequence[float]) -> list[float]:
@@ -150,10 +150,10 @@ def correct_holm(p_values: Sequence[float]) -> list[float]:
     Returns:
         The corrected values in the same order.
     """
-    given = np.asarray(p_values, dtype=float)
-    order = np.argsort(given)[: int(np.sum(~np.isnan(given)))]
-    steps = np.minimum(given[order] * np.arange(len(order), 0, -1), 1.0)
-    corrected = np.full(len(given), np.nan)
+    values = np.asarray(p_values, dtype=float)
+    order = np.argsort(values)[: int(np.sum(~np.isnan(values)))]
+    steps = np.minimum(values[order] * np.arange(len(order), 0, -1), 1.0)
+    corrected = np.full(len(values), np.nan)
     corrected[order] = np.maximum.accumulate(steps)
     return corrected.tolist()
 

@@ -89,7 +89,7 @@ def sweep(
         check_number("threads", threads, "", 1, MAX_THREADS)
     configurations = [_change(configuration, case) for case in cases]
     laws = [case.get(LAW, law) for case in cases]
-    own: list[Any] = [one if callable(one) else None for one in laws]
+    own: list[Any] = [case_law if callable(case_law) else None for case_law in laws]
 
     def run(number: int) -> dict[str, Any]:
         changed = configurations[number]

@@ -156,7 +156,7 @@ def build_rest() -> tuple[Scenario, ...]:
 
 
 def get_mean_stiffness(scenario: Scenario) -> float:
-    """The mean of a trial's σ_d, N·m/rad."""
+    """Return the mean of a trial's reference stiffness σ_d, N·m/rad."""
     match scenario.stiffness:
         case ConstantStiffness(stiffness_nm_per_rad=sigma):
             return sigma
@@ -166,8 +166,8 @@ def get_mean_stiffness(scenario: Scenario) -> float:
 
 
 def list_mean_stiffnesses(scenarios: Sequence[Scenario]) -> np.ndarray:
-    """`get_mean_stiffness` of each, (scenarios,), N·m/rad."""
-    return np.array([get_mean_stiffness(one) for one in scenarios])
+    """List the mean reference stiffness σ_d of each trial, (scenarios,), N·m/rad."""
+    return np.array([get_mean_stiffness(scenario) for scenario in scenarios])
 
 
 def _draw_position(random: np.random.Generator, is_wide: bool) -> SinePosition:

@@ -15,7 +15,11 @@ from svsa.simulation.plant.effects import EFFECTS, EVERY, IDEAL, RIG, Effects
 
 SWITCHED: Mapping[str, Effects] = {
     "ideal": IDEAL,
-    **{one.name: Effects(**{one.name: one.on}) for one in EFFECTS if one.on is not None},
+    **{
+        effect.name: Effects(**{effect.name: effect.on})
+        for effect in EFFECTS
+        if effect.on is not None
+    },
     "estimation": Effects(encoders=RIG.encoders, estimation=RIG.estimation),
     "rig": RIG,
     "every": EVERY,
@@ -53,8 +57,8 @@ def measure_two_cores(batch: Batch, ticks: int, repeats: int) -> float:
             pool.submit(run_batch, batch, ticks).result()
             alone = min(alone, time.perf_counter() - begin)
             begin = time.perf_counter()
-            both = [pool.submit(run_batch, batch, ticks) for _ in range(2)]
-            for one in both:
-                one.result()
+            futures = [pool.submit(run_batch, batch, ticks) for _ in range(2)]
+            for future in futures:
+                future.result()
             together = min(together, time.perf_counter() - begin)
     return float(2.0 * alone / together)

@@ -102,7 +102,7 @@ def list_c_constants(run: Run) -> np.ndarray:
 
 
 def run_c(loop: CLoop, run: Run, samples: np.ndarray) -> int:
-    """One run of the C loop into samples (ticks, its channels); the ticks done."""
+    """Run the C loop once into `samples`, shape (ticks, channels); return the ticks done."""
     constants = list_c_constants(run)
     return loop.run_one(_point(constants), ctypes.c_long(len(samples)), _point(samples))
 
@@ -119,8 +119,8 @@ def build_arm_work(ticks: int) -> Callable[[], object]:
     """Build the work of the kernel of an arm with the same law: `ticks` ticks."""
     run = ArmRun(build_arm_experiment("rods", {}, {"law": LAW}))
     samples, masses = np.empty((2, ticks, len(CHANNELS))), np.empty(ticks)
-    given = run.arms[0], *run.laws, run.arm_inputs, run.states[0]
-    return lambda: advance_arm(*given, 0, *samples, masses)
+    inputs = run.arms[0], *run.laws, run.arm_inputs, run.states[0]
+    return lambda: advance_arm(*inputs, 0, *samples, masses)
 
 
 def build_actuator_works() -> dict[str, Callable[[], object]]:

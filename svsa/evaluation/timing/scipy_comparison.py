@@ -69,10 +69,11 @@ def compare_with_scipy(repeats: int, duration_s: float = DURATION_S) -> dict[str
     exact = solve_exactly(problem)
     own = partial(solve, problem)
     ours = Candidate(OURS, "RK4: 1", own, compute_error(own(), exact))
-    found = (find_tolerance(method, problem, exact, ours.error_rad) for method in METHODS)
-    candidates = [ours, *(one for one in found if one is not None)]
+    alternatives = (find_tolerance(method, problem, exact, ours.error_rad) for method in METHODS)
+    candidates = [ours, *(candidate for candidate in alternatives if candidate is not None)]
     costs = measure_in_turns(
-        {f"{each.name} {each.setting}": each.solver for each in candidates}, repeats
+        {f"{candidate.name} {candidate.setting}": candidate.solver for candidate in candidates},
+        repeats,
     )
     comparisons: dict[str, Comparison] = {}
     for (name, setting, _, error), cost in zip(candidates, costs.values(), strict=True):
