@@ -41,17 +41,23 @@ class PayloadAdaptation(Checked):
         """Build the constants of the compiled loop.
 
         Args:
-            period: T, s.
+            period: Control period T, s.
 
         Returns:
-            `Adaptation`.
+            Share of forgetting and largest change per period, and largest mass.
         """
         share = -expm1(-period / self.forgetting_s)
         return Adaptation(share, self.rate_kg_per_s * period, self.mass_max_kg)
 
 
 class Adaptation(NamedTuple):
-    """Constants. share: forgotten in a period. step: largest change in a period, kg. most: kg."""
+    """Constants of the payload estimator.
+
+    Attributes:
+        share: Share of the past that is forgotten in a period, 1.
+        step: Largest change of m̂ in a period, kg.
+        most: Largest m̂, kg.
+    """
 
     share: float
     step: float
@@ -62,7 +68,13 @@ NO_ADAPTATION = Adaptation(0.0, 0.0, 0.0)
 
 
 class Payload(NamedTuple):
-    """State of the estimate. yy, yr: weighted means of Y · Y and Y · r. mass: m̂, kg."""
+    """State of the payload estimator.
+
+    Attributes:
+        yy: Weighted mean of Y · Y, (N·m/kg)².
+        yr: Weighted mean of Y · r, (N·m)²/kg.
+        mass: Estimated mass m̂, kg.
+    """
 
     yy: float = 0.0
     yr: float = 0.0
@@ -71,7 +83,7 @@ class Payload(NamedTuple):
 
 @compiled
 def compute_arm_torque(arm: Arm, q: Joints, dq: Joints, ddq: Joints) -> Joints:
-    """M(q) q̈ + C(q, q̇) + g(q), `Joints`, N·m."""
+    """Compute the torques that move an arm: M(q) q̈ + C(q, q̇) + g(q), N·m."""
     angles = turn(q)
     M, bias = compute_mass_matrix(arm, angles), compute_bias(arm, angles, dq)
     return Joints(
@@ -91,10 +103,20 @@ def update_payload(
     F2: tuple[InternalTorque, InternalTorque],
     period: float,
 ) -> Payload:
-    """Update the estimate by one period, of both of whose ends it takes the mean.
+    """Update the estimated payload by one period, from the mean of the states at its ends.
 
-    model: the arm without the mass. old, new: x̂ of both joints. F1, F2: F_n(x̂) of each joint at the
-    old and the new x̂, N·m. period: T, s.
+    Args:
+        adaptation: Share, largest step and largest mass of the estimate.
+        model: The arm without the payload.
+        payload: Estimate at the start of the period.
+        old: State x̂ of both joints at the start.
+        new: State x̂ of both joints at the end.
+        F1: Internal torque F_n(x̂) of joint 1 at the start and at the end, N·m.
+        F2: The same of joint 2, N·m.
+        period: Control period T, s.
+
+    Returns:
+        Estimate at the end of the period.
     """
     (a1, a2), (b1, b2), h = old, new, 0.5
     q = Joints(h * (a1.q + b1.q), h * (a2.q + b2.q))
@@ -108,6 +130,6 @@ def update_payload(
     share = adaptation.share
     yy = payload.yy + share * (y.joint1 * y.joint1 + y.joint2 * y.joint2 - payload.yy)
     yr = payload.yr + share * (y.joint1 * r1 + y.joint2 * r2 - payload.yr)
-    wanted = yr / (yy + _SMALL)
-    step = min(max(wanted - payload.mass, -adaptation.step), adaptation.step)
+    mass = yr / (yy + _SMALL)
+    step = min(max(mass - payload.mass, -adaptation.step), adaptation.step)
     return Payload(yy, yr, min(max(payload.mass + step, 0.0), adaptation.most))

@@ -18,7 +18,7 @@ from svsa.actuators.signals import Disturbance, Positions, Reference, State, Tor
 from svsa.errors import ParameterError, Violation
 from svsa.numerics.compilation import compiled
 
-_GIVEN = (
+_INPUT_TYPES = (
     numba.typeof(State(*[0.0] * 6)),
     numba.typeof(Reference(*[0.0] * 8)),
     numba.typeof(Disturbance(*[0.0] * 3)),
@@ -64,7 +64,7 @@ class Call(NamedTuple):
 
 @cache
 def is_measuring(control: Any) -> bool:
-    """Return whether a law's function has a ninth argument, the measurement; cached.
+    """Return whether a law's function accepts `measured`, the measured positions; cached.
 
     Raises:
         ParameterError: If it has neither eight nor nine arguments.
@@ -99,8 +99,8 @@ def bind(
 @cache
 def _compile(control: Any, measuring: bool, *records: np.dtype) -> int:
     """Compile the function for records of these layouts, and return its C address."""
-    given = _GIVEN if measuring else _GIVEN[:-1]
-    signature = _TORQUE(*map(numba.from_dtype, records), *given)
+    inputs = _INPUT_TYPES if measuring else _INPUT_TYPES[:-1]
+    signature = _TORQUE(*map(numba.from_dtype, records), *inputs)
     control.compile(signature)
     compilation = control.get_compile_result(signature)
     name = compilation.fndesc.llvm_cfunc_wrapper_name
@@ -108,12 +108,12 @@ def _compile(control: Any, measuring: bool, *records: np.dtype) -> int:
 
 
 def _build_call(
-    typing: Any, function: Any, nominal: Any, constants: Any, memory: Any, given: Any
+    typing: Any, function: Any, nominal: Any, constants: Any, memory: Any, inputs: Any
 ) -> Any:
-    """Call the function at an address with the C calling convention; `given` is the tuple of the
+    """Call the function at an address with the C calling convention; `inputs` is the tuple of the
     arguments after the memory.
     """
-    kinds = _GIVEN[: len(given)]
+    kinds = _INPUT_TYPES[: len(inputs)]
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         address, *records, values = arguments
@@ -123,16 +123,16 @@ def _build_call(
         function = builder.inttoptr(address, kind.as_pointer())
         pointers = [builder.inttoptr(word, record) for word in records]
         parts = [
-            context.cast(builder, builder.extract_value(values, i), given[i], kind)
+            context.cast(builder, builder.extract_value(values, i), inputs[i], kind)
             for i, kind in enumerate(kinds)
         ]
         return builder.call(function, [*pointers, *parts])
 
-    return _TORQUE(*[types.int64] * 4, given), generate
+    return _TORQUE(*[types.int64] * 4, inputs), generate
 
 
 def _build_read(typing: Any, address: Any, index: Any) -> Any:
-    """The float64 with this index behind an address."""
+    """Read the float64 with this index in the memory at an address."""
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         begin = builder.inttoptr(arguments[0], ir.DoubleType().as_pointer())
@@ -147,7 +147,15 @@ _read_word: Any = intrinsic(_build_read)
 
 @compiled
 def build_call(law: BoundLaw, memory: np.ndarray) -> Call:
-    """Build the `Call` of a `BoundLaw` with a memory, words of 64 bits."""
+    """Build the call of a bound law with a memory.
+
+    Args:
+        law: Compiled law with its constants.
+        memory: Packed memory of the law, words of 64 bits; the call advances it.
+
+    Returns:
+        Addresses of the function, its records and the memory.
+    """
     return Call(
         law.function,
         law.nominal.ctypes.data,
@@ -171,22 +179,22 @@ def compute_law(
     """Compute the law's torque before limits, and advance its memory by a period.
 
     Args:
-        call: `Call`.
-        x: x̂, `State`.
-        reference: `Reference`.
-        estimate: ŵ of the observer, `Disturbance`, N·m.
-        applied: `Torque` of the last period, N·m.
-        period: T, s.
-        measured: `Positions`, for a law that receives them.
+        call: The law with its memory.
+        x: Estimated state x̂.
+        reference: q_d, σ_d and their derivatives.
+        estimate: Disturbance ŵ of the observer, N·m.
+        applied: Motor torque of the last period, N·m.
+        period: Control period T, s.
+        measured: Measured positions, for a law that receives them, rad.
 
     Returns:
-        `Torque`, N·m.
+        Commanded motor torque, N·m.
     """
     function, nominal = call.function, call.nominal
     constants, memory = call.constants, call.memory
     if call.is_measuring:
-        given = x, reference, estimate, applied, period, measured
-        return _call(function, nominal, constants, memory, given)
+        inputs = x, reference, estimate, applied, period, measured
+        return _call(function, nominal, constants, memory, inputs)
     return _call(function, nominal, constants, memory, (x, reference, estimate, applied, period))
 
 

@@ -91,8 +91,8 @@ def _load_law(name: str) -> Law | str:
     A failed import is cached too: a second attempt takes as long as the first, and the loop of a
     bench that reads a law's name has no time for it.
     """
-    found = load_entry(_find_entries()[name], Law, "law")
-    return f"{found[0].upper()}{found[1:]}." if isinstance(found, str) else found
+    law = load_entry(_find_entries()[name], Law, "law")
+    return f"{law[0].upper()}{law[1:]}." if isinstance(law, str) else law
 
 
 def is_usable(name: str) -> bool:
@@ -127,27 +127,35 @@ def has_own_parameters(name: str) -> bool:
     return not is_usable(name) or get_law(name).parameters is not Gains
 
 
-def read_parameters(name: str, given: Any) -> LawParameters:
+def read_parameters(name: str, parameters: Any) -> LawParameters:
     """Read the parameters of a law; those of an unavailable law are returned as they are.
+
+    Args:
+        name: Name of the law.
+        parameters: `LawParameters`, or values by the name of their field.
+
+    Returns:
+        The validated parameters.
 
     Raises:
         ParameterError: If a parameter is invalid.
     """
     if not has_own_parameters(name):
-        raise ParameterError(Violation("", given, "", f"omitted: {name} takes the run's gains"))
+        bound = f"omitted: {name} takes the run's gains"
+        raise ParameterError(Violation("", parameters, "", bound))
     model = get_law(name).parameters if is_usable(name) else UnreadParameters
-    if isinstance(given, model):
-        return given
-    if not isinstance(given, dict) or not all(isinstance(key, str) for key in given):
-        raise ParameterError(Violation("", given, "", "an object with named fields"))
-    return model(**given)
+    if isinstance(parameters, model):
+        return parameters
+    if not isinstance(parameters, dict) or not all(isinstance(key, str) for key in parameters):
+        raise ParameterError(Violation("", parameters, "", "an object with named fields"))
+    return model(**parameters)
 
 
-def _read_every(given: Any) -> dict[str, LawParameters]:
-    if not isinstance(given, dict) or not all(isinstance(key, str) for key in given):
-        raise ParameterError(Violation("", given, "", "parameters by the name of their law"))
+def _read_every(by_law: Any) -> dict[str, LawParameters]:
+    if not isinstance(by_law, dict) or not all(isinstance(key, str) for key in by_law):
+        raise ParameterError(Violation("", by_law, "", "parameters by the name of their law"))
     read: dict[str, LawParameters] = {}
-    for name, parameters in given.items():
+    for name, parameters in by_law.items():
         try:
             read[_check_name(name)] = read_parameters(name, parameters)
         except ParameterError as error:

@@ -187,8 +187,8 @@ class Law:
             raise
         except Exception as error:
             first, *_ = str(error).strip().split("\n")
-            reported = f"{type(error).__name__}: {first}"
-            raise LawError(f"The law {self.name} does not compile: {reported}") from error
+            reason = f"{type(error).__name__}: {first}"
+            raise LawError(f"The law {self.name} does not compile: {reason}") from error
 
 
 def _name_front(memory: np.dtype) -> tuple[str, ...]:

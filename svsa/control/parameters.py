@@ -20,10 +20,10 @@ class LawParameters(Checked):
 
     @model_validator(mode="before")
     @classmethod
-    def _translate(cls, given: Any) -> Any:
-        if not isinstance(given, dict):
-            return given
-        return {cls.former_names.get(name, name): value for name, value in given.items()}
+    def _translate(cls, fields: Any) -> Any:
+        if not isinstance(fields, dict):
+            return fields
+        return {cls.former_names.get(name, name): value for name, value in fields.items()}
 
     def describe(self) -> dict[str, str]:
         """Format the parameters for a legend.
@@ -35,7 +35,7 @@ class LawParameters(Checked):
         for name, field in type(self).model_fields.items():
             extra = field.json_schema_extra
             symbol = extra.get("symbol", name) if isinstance(extra, dict) else name
-            described[str(symbol)] = _tell(getattr(self, name))
+            described[str(symbol)] = _format_value(getattr(self, name))
         return described
 
 
@@ -46,10 +46,10 @@ class UnreadParameters(LawParameters):
 
     def describe(self) -> dict[str, str]:
         """Format each value to three digits with its name."""
-        return {name: _tell(value) for name, value in (self.model_extra or {}).items()}
+        return {name: _format_value(value) for name, value in (self.model_extra or {}).items()}
 
 
-def _tell(value: Any) -> str:
+def _format_value(value: Any) -> str:
     if isinstance(value, tuple | list):
-        return "/".join(map(_tell, value))
+        return "/".join(map(_format_value, value))
     return f"{value:.3g}" if isinstance(value, int | float) else str(value)

@@ -22,8 +22,9 @@ def find_named(law: Callable[..., Any]) -> tuple[str, ...]:
         signature = inspect.signature(law)
     except ValueError:
         return ()
-    first = [one for one in signature.parameters.values() if one.kind is not one.KEYWORD_ONLY]
-    taken = {one.name for one in first[:_ALWAYS]}
+    parameters = signature.parameters.values()
+    positional = [p for p in parameters if p.kind is not p.KEYWORD_ONLY]
+    taken = {parameter.name for parameter in positional[:_ALWAYS]}
     named = tuple(name for name in NAMED if name in signature.parameters and name not in taken)
     try:
         signature.bind(*range(_ALWAYS), **dict.fromkeys(named))
