@@ -66,8 +66,8 @@ _messages = Console(stderr=True)
 PAPERS_LAWS = ("fl", "ndobc")
 
 
-def _print_version(wanted: bool) -> None:
-    if wanted:
+def _print_version(is_requested: bool) -> None:
+    if is_requested:
         print(svsa.__version__)
         raise typer.Exit
 

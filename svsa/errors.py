@@ -57,12 +57,17 @@ class Violation:
 
 
 class ParameterError(SvsaError, ValueError):
-    """Rejected values; nothing was changed. file: their file, or ""."""
+    """Rejected values; nothing was changed.
+
+    Attributes:
+        violations: The rejected values with their bounds.
+        file: Path of the file that contains the values; "" without a file.
+    """
 
     def __init__(self, *violations: Violation, file: str = "") -> None:
         self.violations, self.file = violations, file
-        reported = " ".join(violation.message for violation in violations)
-        super().__init__(f"{file}: {reported}" if file else reported)
+        message = " ".join(violation.message for violation in violations)
+        super().__init__(f"{file}: {message}" if file else message)
 
     def __reduce__(self) -> tuple[Callable[..., Self], tuple[Violation, ...]]:
         """Support pickling with every violation."""

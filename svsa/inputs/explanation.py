@@ -53,7 +53,7 @@ def explain_problems(
                 hint = f"; did you mean {nearest[0]!r}?" if nearest else ""
                 violation = replace(violation, finding=f"unknown field{hint}")
             here.append(violation)
-    return [reported for path, here in violations.items() for reported in _join(path, here)]
+    return [joined for path, here in violations.items() for joined in _join(path, here)]
 
 
 def _find_path(loc: Sequence[Any], named: int) -> tuple[Any, ...]:

@@ -17,7 +17,7 @@ def find_nearest(name: str, known: Iterable[str], count: int = 3) -> list[str]:
     """
     names = list(known)
     near = difflib.get_close_matches(name, names, n=count, cutoff=0.5)
-    return near or [one for one in names if name and name in one][:count]
+    return near or [longer for longer in names if name and name in longer][:count]
 
 
 def suggest(name: str, known: Iterable[str]) -> str:

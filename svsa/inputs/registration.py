@@ -20,12 +20,12 @@ def import_modules(package: str) -> list[ModuleType]:
 
 
 def find_kinds(package: str, base: type[T]) -> tuple[type[T], ...]:
-    """The classes with a `kind` that derive from `base` in the modules of a package."""
+    """Find the classes with a `kind` that derive from `base` in the modules of a package."""
     return tuple(
-        found
+        member
         for module in import_modules(package)
-        for found in vars(module).values()
-        if isinstance(found, type) and issubclass(found, base) and _is_kind(found, module)
+        for member in vars(module).values()
+        if isinstance(member, type) and issubclass(member, base) and _is_kind(member, module)
     )
 
 
@@ -42,19 +42,19 @@ def load_entry(entry: EntryPoint, base: type[T], noun: str) -> T | str:
     """
     package = entry.dist.name if entry.dist else entry.module
     try:
-        found = entry.load()
+        loaded = entry.load()
     except Exception as error:
-        reported = f"{type(error).__name__}: {error}"
-        return f"the {noun} {entry.name} of the package {package} does not load: {reported}"
-    if isinstance(found, base):
-        name = getattr(found, "name", "")
+        reason = f"{type(error).__name__}: {error}"
+        return f"the {noun} {entry.name} of the package {package} does not load: {reason}"
+    if isinstance(loaded, base):
+        name = getattr(loaded, "name", "")
         if name == entry.name:
-            return found
+            return loaded
         contained = f"the {noun} {name}"
     else:
-        contained = f"an object of type {type(found).__name__}"
+        contained = f"an object of type {type(loaded).__name__}"
     return f"the package {package} declares the {noun} {entry.name}, but contains {contained}"
 
 
-def _is_kind(found: type, module: ModuleType) -> bool:
-    return found.__module__ == module.__name__ and "kind" in getattr(found, "model_fields", {})
+def _is_kind(member: type, module: ModuleType) -> bool:
+    return member.__module__ == module.__name__ and "kind" in getattr(member, "model_fields", {})

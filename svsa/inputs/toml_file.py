@@ -140,14 +140,14 @@ def find_lines(text: str, names: Iterable[str]) -> list[int]:
     counts: Counter[str] = Counter()
     table = ""
     for number, line in enumerate(text.splitlines(), 1):
-        if found := _TABLE.match(line):
-            table = _follow(_strip(found[2]), counts)
-            if found[1] == "[[":
+        if match := _TABLE.match(line):
+            table = _follow(_strip(match[2]), counts)
+            if match[1] == "[[":
                 counts[table] += 1
                 table = f"{table}[{counts[table] - 1}]"
             lines[table] = number
-        elif found := _KEY.match(line):
-            key = _strip(found[1])
+        elif match := _KEY.match(line):
+            key = _strip(match[1])
             lines.setdefault(f"{table}.{key}" if table else key, number)
     return [line for name in names if (line := _find_nearest(lines, name)) is not None]
 
@@ -174,8 +174,8 @@ def describe_place(place: str, text: str, names: Iterable[str]) -> str:
         The description.
     """
     lines = sorted(set(find_lines(text, names)))
-    reported = f"{'lines' if len(lines) > 1 else 'line'} {' and '.join(map(str, lines))}"
-    return ", ".join(filter(None, (place, reported if lines else "")))
+    numbers = f"{'lines' if len(lines) > 1 else 'line'} {' and '.join(map(str, lines))}"
+    return ", ".join(filter(None, (place, numbers if lines else "")))
 
 
 def _find_nearest(lines: dict[str, int], name: str) -> int | None:
