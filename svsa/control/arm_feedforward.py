@@ -34,7 +34,7 @@ class Known(NamedTuple):
 
 @compiled
 def multiply_second(a: Motion, b: Motion) -> tuple[float, float, float]:
-    """a b̈ and its two derivatives."""
+    """Compute a b̈ and its first two time derivatives, for two motions a and b."""
     return (
         a.d0 * b.d2,
         a.d1 * b.d2 + a.d0 * b.d3,
@@ -44,7 +44,7 @@ def multiply_second(a: Motion, b: Motion) -> tuple[float, float, float]:
 
 @compiled
 def read_motion(reference: Reference) -> Motion:
-    """q_d to its fourth derivative."""
+    """Return the position reference q_d to its fourth derivative as a motion."""
     r = reference
     return Motion(r.q, r.dq, r.ddq, r.dddq, r.ddddq)
 
@@ -53,10 +53,18 @@ def read_motion(reference: Reference) -> Motion:
 def compute_torques_along(
     arm: Arm, joint1: Motion, joint2: Motion
 ) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
-    """τ_d of both joints with two time derivatives, N·m, N·m/s, N·m/s².
+    """Compute the torque τ_d that an arm needs for a motion of both joints.
 
     With p = q1 + q2: τ2 = a2 p̈ + a3 (cos p (sin q1)¨ − sin p (cos q1)¨) + b2 sin p and
     τ1 = τ2 + a1 q̈1 + a3 (cos q1 (sin p)¨ − sin q1 (cos p)¨) + b1 sin q1.
+
+    Args:
+        arm: Constants of the arm.
+        joint1: Position of joint 1 to its fourth derivative, rad.
+        joint2: Position of joint 2 to its fourth derivative, rad.
+
+    Returns:
+        For each joint τ_d and its two time derivatives, N·m, N·m/s, N·m/s².
     """
     p = Motion(
         joint1.d0 + joint2.d0,
@@ -87,7 +95,18 @@ def compute_torques_along(
 def compute_known(
     arm: Arm, inertia1: float, inertia2: float, reference1: Reference, reference2: Reference
 ) -> tuple[Known, Known]:
-    """w_d of both joints with two derivatives. inertia1, inertia2: M of the nominal models."""
+    """Compute the load w_d of both joints that the arm's model predicts along the references.
+
+    Args:
+        arm: Constants of the arm.
+        inertia1: Link inertia M of the nominal model of joint 1, kg·m².
+        inertia2: Link inertia M of the nominal model of joint 2, kg·m².
+        reference1: Reference of joint 1.
+        reference2: Reference of joint 2.
+
+    Returns:
+        For each joint its reference, and w_d with two derivatives.
+    """
     torque1, torque2 = compute_torques_along(arm, read_motion(reference1), read_motion(reference2))
     r1, r2 = reference1, reference2
     return (
@@ -108,7 +127,16 @@ def compute_known(
 
 @compiled
 def shift_reference(nominal: AnyActuator, x: State, known: Known) -> Reference:
-    """The reference that a law gets with the feedforward. nominal: of the joint. x: its x̂."""
+    """Shift a joint's reference so that its law compensates the predicted load w_d.
+
+    Args:
+        nominal: Constants of the joint's nominal model.
+        x: Estimated state x̂ of the joint.
+        known: Reference of the joint, and w_d with two derivatives.
+
+    Returns:
+        The reference that the law receives.
+    """
     s = compute_coordinate(nominal, x.theta2)
     spring = compute_derivatives(nominal, s, compute_deflection(x))
     r, D, rM = known.reference, nominal.D, 1.0 / nominal.M

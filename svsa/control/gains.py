@@ -57,12 +57,12 @@ class Gains(LawParameters):
 
     @property
     def position_roots(self) -> list[complex]:
-        """The four roots of the position polynomial, rad/s."""
+        """Compute the four roots of the position polynomial, rad/s."""
         return compute_roots(self.position_coefficients)
 
     @property
     def stiffness_roots(self) -> list[complex]:
-        """The two roots of the stiffness polynomial, rad/s."""
+        """Compute the two roots of the stiffness polynomial, rad/s."""
         return compute_roots(self.stiffness_coefficients)
 
     @model_validator(mode="after")
@@ -120,7 +120,7 @@ def compute_coefficients(name: str, poles: Sequence[complex], order: int) -> tup
 
 
 def compute_roots(coefficients: Sequence[float]) -> list[complex]:
-    """The roots of s^n + c_{n−1} s^{n−1} + … + c0 (Eq 25), rad/s, slowest first."""
+    """Compute the roots of s^n + c_{n−1} s^{n−1} + … + c0 (Eq 25), rad/s, slowest first."""
     return list(_find_roots(tuple(coefficients)))
 
 

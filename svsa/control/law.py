@@ -116,7 +116,7 @@ class Law:
 
     @property
     def takes_feedforward(self) -> bool:
-        """Whether the law may get the arm feedforward: it has no ŵ of its own, and rejects none."""
+        """Whether the law may receive the arm feedforward: no ŵ of its own, and not rejected."""
         return self.estimate != "own" and not self.rejects_feedforward
 
     @cached_property

@@ -9,7 +9,7 @@ from svsa.numerics.simd.choice import choose, greatest, least, some
 
 @compiled
 def limit_torque(torque: Torque, torque1_max: float, torque2_max: float) -> Torque:
-    """Both torques clipped to ±their limit, N·m; a torque that is not a number stays so."""
+    """Clip both torques to ± their limits, N·m; NaN remains NaN."""
     return Torque(
         least(greatest(torque.u1, -torque1_max), torque1_max),
         least(greatest(torque.u2, -torque2_max), torque2_max),
@@ -18,7 +18,7 @@ def limit_torque(torque: Torque, torque1_max: float, torque2_max: float) -> Torq
 
 @compiled
 def split_torque(u: Torque) -> Torque:
-    """(ua, ub) of two motors that pull against each other: u1 = ua + ub, u2 = ua − ub, N·m."""
+    """Return torques (ua, ub) of antagonistic motors, N·m: u1 = ua + ub, u2 = ua − ub."""
     return Torque(0.5 * (u.u1 + u.u2), 0.5 * (u.u1 - u.u2))
 
 
@@ -50,7 +50,7 @@ def limit_motors(plant: AnyActuator, torque: Torque, most: Torque) -> Torque:
         most: Limits of motor 1 (a) and motor 2 (b), N·m.
 
     Returns:
-        `Torque`, N·m.
+        Limited u1 and u2, N·m.
     """
     return _limit(plant, torque, most)
 
@@ -73,5 +73,11 @@ _at_limit = choose_kind(_at_limit_of_svsa, _at_limit_of_energy)
 
 @compiled
 def are_at_limit(plant: AnyActuator, torque: Torque, most: Torque) -> bool:
-    """Whether a real motor is at or above its share `most`, N·m. Arguments: as `limit_motors`."""
+    """Return whether a real motor is at or above its torque limit.
+
+    Args:
+        plant: Constants of the plant.
+        torque: u1 and u2, N·m.
+        most: Limits of motor 1 (a) and motor 2 (b), N·m.
+    """
     return _at_limit(plant, torque, most)

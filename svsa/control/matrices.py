@@ -16,12 +16,12 @@ MAX_RICCATI = 1e100
 
 
 def weigh(bound: float) -> float:
-    """1/bound²: weight of an error in a quadratic cost (Bryson's rule)."""
+    """Return 1/bound², the weight of an error in a quadratic cost (Bryson's rule)."""
     return 1.0 / (bound * bound)
 
 
 def multiply(A: np.ndarray, B: np.ndarray, *others: np.ndarray) -> np.ndarray:
-    """A B …, of two dimensions each."""
+    """Multiply matrices: A B …, each of two dimensions, in a fixed order of operations."""
     product = A[:, :1] * B[:1]
     for k in range(1, len(B)):
         product = product + A[:, k : k + 1] * B[k : k + 1]
@@ -29,7 +29,7 @@ def multiply(A: np.ndarray, B: np.ndarray, *others: np.ndarray) -> np.ndarray:
 
 
 def raise_to(A: np.ndarray, power: int) -> np.ndarray:
-    """A^power, power ≥ 0."""
+    """Compute the power of a square matrix, A^power with power ≥ 0."""
     return np.eye(len(A)) if power == 0 else multiply(A, raise_to(A, power - 1))
 
 
@@ -54,7 +54,7 @@ def solve(A: np.ndarray, B: np.ndarray) -> np.ndarray:
 
 
 def compute_exponential(A: np.ndarray) -> np.ndarray:
-    """e^A by its Taylor series about A/2^s with ‖A/2^s‖₁ ≤ 1/2, squared s times."""
+    """Compute e^A by its Taylor series about A/2^s with ‖A/2^s‖₁ ≤ 1/2, squared s times."""
     norm, squarings = float(np.max(np.abs(A))) * len(A), 0
     while norm > 0.5:
         norm, squarings = norm / 2.0, squarings + 1

@@ -25,12 +25,12 @@ class ObserverBandwidth(Checked):
 
 
 def compute_share(bandwidth_rad_per_s: float, period: float) -> float:
-    """1 − e^(−βT): how much of its error an estimate loses in one sample of `period`, s."""
+    """Compute the observer gain 1 − e^(−βT): the share of the error removed in a period T, s."""
     return -expm1(-bandwidth_rad_per_s * period)
 
 
 def compute_shares(observer: ObserverBandwidth, period: float) -> tuple[float, float, float]:
-    """1 − e^(−βT) of the three channels: the share of the error that one sample removes."""
+    """Compute the observer gains 1 − e^(−βT) of link, motor 1 and motor 2 for a period T, s."""
     b2, b4, b6 = (compute_share(beta, period) for beta in observer.bandwidth_rad_per_s)
     return b2, b4, b6
 
@@ -51,16 +51,16 @@ def update_disturbance_estimate(
     converges to Eq 10 as T → 0. With the actual torque as input it does not wind up in saturation.
 
     Args:
-        nominal: `Actuator` of the nominal model.
+        nominal: Constants of the nominal model.
         shares: Observer gains 1 − e^(−βT) of the three channels (`compute_shares`).
-        estimate: ŵ, `Disturbance`, N·m.
-        x_old: `State` at the beginning of the sample.
-        x_new: `State` at its end.
-        torque: u applied between them, `Torque`, N·m.
-        period: T, s.
+        estimate: Estimated disturbance ŵ, N·m.
+        x_old: State at the beginning of the period.
+        x_new: State at its end.
+        torque: Motor torque u applied in the period, N·m.
+        period: Control period T, s.
 
     Returns:
-        `Disturbance`, N·m.
+        Updated ŵ, N·m.
     """
     F_old = compute_internal_torque(nominal, x_old)
     F_new = compute_internal_torque(nominal, x_new)
@@ -81,7 +81,7 @@ def correct_disturbance_estimate(
     torque: Torque,
     period: float,
 ) -> Disturbance:
-    """`update_disturbance_estimate` where F at both ends, `InternalTorque`, N·m, is known."""
+    """Update ŵ as `update_disturbance_estimate`, with known internal torques F of both states."""
     seen = compute_unexplained_mean(nominal, x_old, F_old, x_new, F_new, torque, period)
     return Disturbance(
         estimate.w2 + shares[0] * (seen.w2 - estimate.w2),
@@ -100,7 +100,7 @@ def compute_unexplained_mean(
     torque: Torque,
     period: float,
 ) -> Disturbance:
-    """J (v_new − v_old)/T − ½(F_new + F_old) − u, `Disturbance`, N·m: the mean w of a sample."""
+    """Compute the mean disturbance of a period: J (v_new − v_old)/T − ½(F_new + F_old) − u, N·m."""
     rate = 1.0 / period
     return Disturbance(
         nominal.M * (x_new.dq - x_old.dq) * rate - 0.5 * (F_new.link + F_old.link),

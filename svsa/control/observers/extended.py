@@ -34,7 +34,7 @@ class Extended(NamedTuple):
 
 
 def build_triple_pole(omega: float, period: float) -> TriplePole:
-    """The gains for three poles at ω, rad/s, sampled with `period`, s."""
+    """Build the observer gains for three poles at ω, rad/s, and a period T, s."""
     kept = exp(-omega * period)
     lost = 1.0 - kept
     return TriplePole(1.0 - kept**3, 1.5 * lost * lost * (1.0 + kept) / period, lost**3 / period**2)

@@ -38,13 +38,13 @@ class Observed(NamedTuple):
 
 @compiled
 def get_observed(memory: np.record) -> Disturbance:
-    """Return ŵ as `Disturbance`, N·m."""
+    """Return ŵ from the memory of an observer, N·m."""
     return Disturbance(memory.w2, memory.w4, memory.w6)
 
 
 @compiled
 def remember_state(memory: np.record, x: State) -> None:
-    """Store x̂, `State`, for the next period."""
+    """Store x̂ in the memory of an observer, for the next period."""
     memory.x.q, memory.x.dq = x.q, x.dq
     memory.x.theta1, memory.x.dtheta1 = x.theta1, x.dtheta1
     memory.x.theta2, memory.x.dtheta2 = x.theta2, x.dtheta2
@@ -61,23 +61,23 @@ def observe_disturbance(
     torque: Torque,
     period: float,
 ) -> Disturbance:
-    """ŵ by an observer that also estimates its rate: ŵ += T ŵ̇, then ŵ += g r, ŵ̇ += h r/T.
+    """Update ŵ by an observer that also estimates its rate: ŵ += T ŵ̇, then ŵ += g r, ŵ̇ += h r/T.
 
     r = J (v_new − v_old)/T − ½(F_new + F_old) − u − ŵ, over the last sample with both of its ends.
     With θ = e^(−ωT), g = 1 − θ² and h = (1 − θ)² both poles are at ω, and a ramp load is estimated
     without lag; with g = 1 − e^(−βT) and h = 0 it is the loop's observer.
 
     Args:
-        nominal: `Actuator` of the nominal model.
-        share: g.
-        rate_share: h.
-        memory: `Observed`, written.
-        x: Current x̂, `State`.
-        torque: `Torque` that acted in the last period, N·m.
-        period: T, s.
+        nominal: Constants of the nominal model.
+        share: Gain g of ŵ.
+        rate_share: Gain h of its rate.
+        memory: State of the observer (`Observed`), updated in place.
+        x: Current estimated state x̂.
+        torque: Motor torque that acted in the last period, N·m.
+        period: Control period T, s.
 
     Returns:
-        ŵ, `Disturbance`, N·m.
+        Updated ŵ, N·m.
     """
     F_old = compute_internal_torque(nominal, memory.x)
     F_new = compute_internal_torque(nominal, x)
@@ -96,7 +96,7 @@ def observe_unexplained(
     torque: Torque,
     period: float,
 ) -> Disturbance:
-    """`observe_disturbance` with F at both ends from the law's own model, `InternalTorque`, N·m."""
+    """Update ŵ as `observe_disturbance`, with internal torques F from the law's own model."""
     r = compute_residual(nominal, memory, x, F_old, F_new, torque, period)
     return correct_observed(memory, share, rate_share, x, r, period)
 
@@ -111,7 +111,7 @@ def compute_residual(
     torque: Torque,
     period: float,
 ) -> Disturbance:
-    """r of `observe_disturbance`, `Disturbance`, N·m; 0 without a previous period."""
+    """Compute the estimation residual r of `observe_disturbance`, N·m; 0 in the first period."""
     seen = compute_unexplained_mean(nominal, memory.x, F_old, x, F_new, torque, period)
     is_started = memory.is_started > 0.0
     return Disturbance(
@@ -130,7 +130,7 @@ def correct_observed(
     residual: Disturbance,
     period: float,
 ) -> Disturbance:
-    """ŵ += T ŵ̇ + g r and ŵ̇ += h r/T, and store x̂; `residual` is r, see `observe_disturbance`."""
+    """Correct ŵ += T ŵ̇ + g r and ŵ̇ += h r/T by the residual r, and store x̂; return ŵ."""
     r, h = residual, rate_share / period
     memory.w2 = memory.w2 + period * memory.dw2 + share * r.w2
     memory.w4 = memory.w4 + period * memory.dw4 + share * r.w4

@@ -7,7 +7,7 @@ from svsa.numerics.compilation import compiled
 
 @compiled
 def build_measured_state(measurement: Measurement) -> State:
-    """x̂ where velocities are known: q = θ1 + φ and the rest as measured."""
+    """Build x̂ from measured positions and velocities: q = θ1 + φ, the rest as measured."""
     y = measurement
     return State(y.theta1 + y.phi, y.dq, y.theta1, y.dtheta1, y.theta2, y.dtheta2)
 
@@ -41,17 +41,17 @@ def correct(
 def predict_state(
     nominal: Actuator, x: State, w: Disturbance, torque: Torque, period: float
 ) -> State:
-    """x̂ one period later by Heun's rule on ẋ = f(x) + g(x)u + p(x)ŵ.
+    """Predict x̂ one period later by Heun's rule on ẋ = f(x) + g(x)u + p(x)ŵ.
 
     Args:
-        nominal: `Actuator` of the nominal model.
-        x: `State`.
-        w: ŵ, `Disturbance`, N·m.
-        torque: `Torque`, N·m.
-        period: T, s.
+        nominal: Constants of the nominal model.
+        x: Estimated state x̂.
+        w: Estimated disturbance ŵ, N·m.
+        torque: Motor torque u in the period, N·m.
+        period: Control period T, s.
 
     Returns:
-        `State`.
+        State x̂ at the end of the period.
     """
     load = ExternalLoad(w.w2, w.w4, w.w6, 0.0, 0.0)
     k1 = compute_rate(nominal, x, torque, load)
