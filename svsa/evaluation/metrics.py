@@ -99,7 +99,14 @@ def compute_metrics(
 
 
 def find_held(summaries: np.ndarray) -> np.ndarray:
-    """Whether each run held, see `HELD`; (runs,) from `SUMMARY`. Runs last at least 1 s."""
+    """Find which runs held, by the criterion `HELD`.
+
+    Args:
+        summaries: `SUMMARY` of runs of at least 1 s, any shape.
+
+    Returns:
+        Whether each run held, in the same shape.
+    """
     return (
         (summaries["code"] == INSIDE)
         & (summaries["position_last_peak"] <= HELD_POSITION_RAD)

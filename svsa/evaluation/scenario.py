@@ -43,7 +43,7 @@ class Scenario(NamedTuple):
     figure: str = "4a"
 
     def build_configuration(self, law: str) -> Configuration:
-        """The run of this scenario under a law with its default parameters."""
+        """Build the run of this scenario under a law with its default parameters."""
         figure = FIGURES[self.figure].build_configuration(law, load=False)
         actuator = figure.actuator
         if self.plant:

@@ -50,12 +50,12 @@ _DAMPINGS = (
 
 
 def start_generator(key: int, number: int) -> np.random.Generator:
-    """A Philox generator of its own for each key and number, which are below 2^64."""
+    """Start an independent Philox generator for a key and a number, both below 2^64."""
     return np.random.Generator(np.random.Philox(key=np.array([key, number], dtype=np.uint64)))
 
 
 def derive_key(name: str, seed: int) -> int:
-    """The key of a set's trials: 64 bits of SHA-256 of its name and seed."""
+    """Derive the key of a set's trials: 64 bits of SHA-256 of its name and seed."""
     return int.from_bytes(hashlib.sha256(f"{name}:{seed}".encode()).digest()[:8], "big")
 
 
@@ -123,7 +123,17 @@ def build_validation(seed: int, count: int) -> tuple[Scenario, ...]:
 
 
 def build_set(name: str, seed: int, count: int, first: int = 0) -> tuple[Scenario, ...]:
-    """`count` trials from number `first` on, of families A and B in turns."""
+    """Build trials of families A and B, alternating.
+
+    Args:
+        name: Name of the set, such as "test".
+        seed: Seed of the set.
+        count: Number of trials.
+        first: Number of the first trial, from 0.
+
+    Returns:
+        The trials in the order of their numbers.
+    """
     numbers = range(first, first + count)
     return tuple(build_trial(FAMILIES[number % 2], name, seed, number // 2) for number in numbers)
 

@@ -121,5 +121,5 @@ def write_bench_runs(path: Path, runs: BenchRuns) -> None:
 
 @cache
 def load_published_bench_runs() -> BenchRuns:
-    """The runs that this version was published with: `bench_results.json`."""
+    """Load the runs that this version was published with: `bench_results.json`."""
     return read_bench_runs(PUBLISHED)

@@ -41,21 +41,21 @@ class Entry(NamedTuple):
 
     @property
     def tuning(self) -> TunedLaw | None:
-        """The tuning of its parameters; None for parameters without one."""
+        """The tuning of the law for a tuned entry; otherwise None."""
         return load_tuned_laws().get(self.law) if self.variant == "tuned" else None
 
     @property
     def key(self) -> str:
-        """Key of its row."""
+        """Key of the entry's row in the ranking."""
         return DECLARED if self.variant == "declared" else self.law
 
     def build_configuration(self, scenario: Scenario) -> Configuration:
-        """Build its run of a scenario."""
+        """Build the run of a scenario under the law with the entry's parameters."""
         own = {name: getattr(self.design, name) for name in ("gains", "observer", "parameters")}
         return build_scenario_run(scenario, self.law, self.actuator).changed(**own)
 
     def build_lane(self) -> Lane:
-        """Build its controller as a lane."""
+        """Build a lane of a run with the law and the entry's parameters."""
         if has_own_parameters(self.law):
             return Lane(law=self.law, parameters=self.design.parameters.get(self.law))
         return Lane(law=self.law, gains=self.design.gains, observer=self.design.observer)

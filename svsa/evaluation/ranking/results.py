@@ -198,5 +198,5 @@ def read_results(path: Path) -> Results:
 
 @cache
 def load_published() -> Results:
-    """The results that this version was published with: `svsa/evaluation/ranking/results.json`."""
+    """Load the results that this version was published with: `results.json` in this folder."""
     return read_results(PUBLISHED)

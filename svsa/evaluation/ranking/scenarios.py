@@ -217,7 +217,7 @@ def build_link_steps(torque_nm: float) -> FixedScenario:
 
 
 def list_scenarios() -> Iterator[Scenario]:
-    """Every fixed scenario with its variants, link steps included."""
+    """List the variants of every fixed scenario, link steps included."""
     for fixed in build_fixed_scenarios():
         yield from fixed.variants
     for count in range(1, round(MAX_STEP_NM / STEP_NM) + 1):

@@ -78,7 +78,7 @@ def build_c_loop(folder: Path) -> CLoop | None:
 
 
 def list_c_constants(run: Run) -> np.ndarray:
-    """The constants of a run of Figure 4A in the order of the C loop's structure, (40,)."""
+    """List the constants of a run of Figure 4A in the order of the C structure, shape (40,)."""
     blocks, configuration = run.blocks[0], run.configuration
     position: Any = configuration.position
     stiffness: Any = configuration.stiffness
@@ -130,7 +130,7 @@ def build_actuator_works() -> dict[str, Callable[[], object]]:
 
 
 def build_kernel_work(run: Run) -> Callable[[], object]:
-    """The loop of the first lane of a run over the duration of a figure."""
+    """Build the work of the loop: the first lane of a run over the duration of a figure."""
     lane = run.blocks[0], run.laws[0], run.inputs, run.lanes[0]
     samples = np.empty((round(DURATION_S / run.period_s), len(CHANNELS)))
     return lambda: advance(*lane, 0, samples)

@@ -93,7 +93,11 @@ def integrate(problem: Problem, steps: int, states: np.ndarray) -> None:
 
 
 def solve(problem: Problem, steps: int = 1) -> np.ndarray:
-    """The states at the end of each period, (periods, 6): as in every run by one step a period."""
+    """Solve the problem by `steps` Runge–Kutta steps per period; a run takes one.
+
+    Returns:
+        The states at the end of each period, shape (periods, 6).
+    """
     states = np.empty((len(problem.torques), len(STATES)))
     integrate(problem, steps, states)
     return states

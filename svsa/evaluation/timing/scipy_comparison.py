@@ -105,7 +105,7 @@ def compute_error(states: np.ndarray, exact: np.ndarray) -> float:
 def compute_held_rate(
     time: float, x: np.ndarray, actuator: Actuator, force: np.ndarray
 ) -> np.ndarray:
-    """ẋ, (6,), of the state x under the torques on link, motor 1 and motor 2, N·m, (3,)."""
+    """Compute ẋ, shape (6,), under constant torques on link, motor 1 and motor 2, N·m, (3,)."""
     state = State(x[0], x[1], x[2], x[3], x[4], x[5])
     torque, load = Torque(force[1], force[2]), ExternalLoad(force[0], 0.0, 0.0, 0.0, 0.0)
     rate = compute_rate(actuator, state, torque, load)
@@ -113,7 +113,7 @@ def compute_held_rate(
 
 
 def solve_exactly(problem: Problem) -> np.ndarray:
-    """The states as exact as doubles allow, (periods, 6): the reference of every error."""
+    """Compute reference states, shape (periods, 6), as exact as double precision permits."""
     return solve_by_scipy(problem, "DOP853", 1e-13, 0.25 * problem.period)
 
 
