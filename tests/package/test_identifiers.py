@@ -2,7 +2,7 @@
 
 An identifier is a word in backticks with an underscore or an inner capital letter, or a name,
 dotted or not, that fills its backticks. What the source does not have, such as another program or a
-function that was removed, has no backticks. NAME stands for a name that the reader chooses.
+function that was removed, has no backticks. NAME is replaced by the reader.
 `test_paths.py` checks the paths.
 """
 

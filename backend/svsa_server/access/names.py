@@ -67,7 +67,7 @@ def clean_name(name: str) -> str:
 
 
 def is_reserved(name: str) -> bool:
-    """Return whether a name stands for a role, the lab or an id."""
+    """Return whether a name is that of a role, of the lab or an id."""
     plain = _strip_marks(unicodedata.normalize("NFKC", name))
     words = re.findall(r"\w+", plain)
     joined = "".join(words)

@@ -29,19 +29,19 @@ def slide(step: int) -> Command:
     return Set("observer", ObserverBandwidth(bandwidth_rad_per_s=(70.0 + step,) * 3))
 
 
-def read(reported: Broadcast) -> dict:
-    return json.loads(reported.text)
+def read(sent_past: Broadcast) -> dict:
+    return json.loads(sent_past.text)
 
 
 def test_change_is_serialized_once_for_clients_with_the_same_content(hosted, monkeypatch):
     written = []
     build = broadcast.build_state
     monkeypatch.setattr(broadcast, "build_state", lambda *of: written.append(of) or build(*of))
-    reported = SentPast.all_of(hosted)
-    messages = {broadcast.write_broadcast(hosted, reported) for _ in range(100)}
+    sent_past = SentPast.all_of(hosted)
+    messages = {broadcast.write_broadcast(hosted, sent_past) for _ in range(100)}
     assert len(messages) == len(written) == 1
     hosted.session.start()
-    assert read(broadcast.write_broadcast(hosted, reported))["state"]["status"] == "running"
+    assert read(broadcast.write_broadcast(hosted, sent_past))["state"]["status"] == "running"
     assert len(written) == 2
 
 
@@ -51,17 +51,17 @@ def test_clients_of_different_age_receive_the_same_from_the_first_change_on(host
         hosted.session.step(10)
         came.append(SentPast.all_of(hosted))
     hosted.session.set_speed(2.0)
-    then = {broadcast.write_broadcast(hosted, reported) for reported in came}
+    then = {broadcast.write_broadcast(hosted, sent_past) for sent_past in came}
     assert len({message.text for message in then}) == 5
     assert len({message.sent for message in then}) == 1
 
 
 def test_only_the_holder_of_control_is_notified(hosted):
     hosted.take_control(Holder("ada", "Ada"), take_over=False)
-    reported = SentPast.all_of(hosted)
+    sent_past = SentPast.all_of(hosted)
     for client, is_ada in (("ada", True), ("bob", False), ("ada", True), (None, False)):
         asking.set(client)
-        control = read(broadcast.write_broadcast(hosted, reported))["state"]["control"]
+        control = read(broadcast.write_broadcast(hosted, sent_past))["state"]["control"]
         assert (control["holder"], control["mine"]) == ("Ada", is_ada)
 
 
@@ -69,13 +69,13 @@ def test_continuous_values_are_serialized_once_per_period(hosted, monkeypatch):
     written = []
     build = broadcast.build_progress
     monkeypatch.setattr(broadcast, "build_progress", lambda *of: written.append(of) or build(*of))
-    reported = SentPast.all_of(hosted)
-    assert len({broadcast.write_progress(hosted, reported, period=7) for _ in range(100)}) == 1
-    broadcast.write_progress(hosted, reported, period=8)
+    sent_past = SentPast.all_of(hosted)
+    assert len({broadcast.write_progress(hosted, sent_past, period=7) for _ in range(100)}) == 1
+    broadcast.write_progress(hosted, sent_past, period=8)
     assert len(written) == 2
     hosted.session.start()
     assert (
-        read(broadcast.write_progress(hosted, reported, period=8))["state"]["status"] == "running"
+        read(broadcast.write_progress(hosted, sent_past, period=8))["state"]["status"] == "running"
     )
     assert len(written) == 3
 
@@ -91,12 +91,12 @@ def test_window_is_fresh_in_its_first_seconds(hosted):
 
 def test_message_size_does_not_grow_with_the_changes_of_a_minute(hosted):
     """A dragged slider notifies a hundred browsers of each of its steps."""
-    reported, sizes = SentPast.all_of(hosted), []
+    sent_past, sizes = SentPast.all_of(hosted), []
     for step in range(200):
         hosted.session.step(20)
         hosted.session.change(slide(step))
-        message = broadcast.write_broadcast(hosted, reported)
-        reported = message.sent
+        message = broadcast.write_broadcast(hosted, sent_past)
+        sent_past = message.sent
         sizes.append(len(message.text))
     assert len(build_state(hosted).model_dump_json()) > 10 * sizes[-1]
     assert max(sizes[5:]) < 1.2 * sizes[5]
@@ -136,20 +136,20 @@ def do_something(session: SimulatedSession, dice: random.Random) -> None:
 def test_merged_messages_give_the_state_of_the_session(hosted, seed):
     """Also for a reader that receives some changes late, together."""
     dice, session = random.Random(seed), hosted.session  # noqa: S311
-    reported, known = SentPast.all_of(hosted), json.loads(build_state(hosted).model_dump_json())
+    sent_past, known = SentPast.all_of(hosted), json.loads(build_state(hosted).model_dump_json())
     for number in range(100):
         do_something(session, dice)
         session.journal.advance(dice.choice((0, 1, 5, 40)))
         if dice.random() < 0.3:
             continue
-        message = broadcast.write_broadcast(hosted, reported)
-        reported, known = message.sent, join(known, read(message))
+        message = broadcast.write_broadcast(hosted, sent_past)
+        sent_past, known = message.sent, join(known, read(message))
         version = hosted.version
         session.journal.advance(dice.choice((0, 1, 40)))
         if hosted.version != version:
             continue
-        message = broadcast.write_progress(hosted, reported, number)
-        reported, known = message.sent, join(known, read(message))
+        message = broadcast.write_progress(hosted, sent_past, number)
+        sent_past, known = message.sent, join(known, read(message))
         there = json.loads(build_state(hosted).model_dump_json())
         for sent_part in ("events", "ended_windows", "lanes"):
             assert known[sent_part][-50:] == there[sent_part][-50:], sent_part

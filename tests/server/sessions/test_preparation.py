@@ -28,7 +28,7 @@ from svsa_server.sessions.preparation import rehearse
 
 loaded = []
 load = SharedCache.load_overload
-SharedCache.load_overload = lambda self, *given: loaded.append(self._name) or load(self, *given)
+SharedCache.load_overload = lambda self, *names: loaded.append(self._name) or load(self, *names)
 effects = Effects.model_validate({"encoders": {}, "estimation": {}, "delay_samples": 1})
 arm = FromArm.model_validate({"from": "arm", "arm": "rods", "actuators": ["svsa", "qbmove"]})
 for configuration, commands in (

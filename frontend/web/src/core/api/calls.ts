@@ -15,7 +15,7 @@ export interface Call {
 
 const MAX_CALLS = 200;
 /** Requests with secrets of the lab are never shown. */
-const SECRET_PATHS = ["login", "join"];
+const SECRET_PATHS = ["login", "join", "rejoin"];
 /** Read-only requests of interactive input, which are not shown: their path's beginning or end. */
 const PREVIEW_PREFIX = "references/";
 const PREDICTION_SUFFIX = "/bench/endurance";

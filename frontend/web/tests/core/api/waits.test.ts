@@ -24,6 +24,8 @@ it("waits for a slow lab during login, since a repeated login would create a sec
   await Promise.all([join("Ada", "ABCD-EFGH"), comeBack("IJKL"), login("secret")]);
   expect(waits).toHaveLength(3);
   expect(Math.min(...waits)).toBeGreaterThan(SLOW_MS);
+  const { calls } = await import("../../../src/core/api/calls");
+  expect(calls.value, "secrets are not shown").toEqual([]);
 });
 
 it("waits for a prediction until its worker has started, and requests it once", async () => {

@@ -1,4 +1,4 @@
-import { describe, expect, it, vi } from "vitest";
+import { afterEach, describe, expect, it, vi } from "vitest";
 import { backoffMs, type ProbeResult, StreamConnection } from "../../../src/core/stream/connection";
 
 describe("reconnecting", () => {
@@ -32,18 +32,27 @@ function stubSockets(): Socket[] {
   return sockets;
 }
 
+/** An open connection with fake timers, its sockets and the phases that it reports. */
+function openStream(probe: () => Promise<ProbeResult>, isBlocked = async () => false) {
+  vi.useFakeTimers();
+  const sockets = stubSockets();
+  const phases: string[] = [];
+  new StreamConnection(() => new URL("ws://lab/stream"), probe, isBlocked, {
+    onPhase: (phase) => void phases.push(phase),
+    onText: () => {},
+    onBinary: () => {},
+  }).open();
+  return { sockets, phases };
+}
+
+afterEach(() => {
+  vi.useRealTimers();
+  vi.unstubAllGlobals();
+});
+
 describe("a stream with a slow first connection", () => {
   it("is reported as lost only after it was connected", async () => {
-    vi.useFakeTimers();
-    const sockets = stubSockets();
-    const phases: string[] = [];
-    const connection = new StreamConnection(
-      () => new URL("ws://lab/stream"),
-      async () => "down",
-      async () => false,
-      { onPhase: (phase) => void phases.push(phase), onText: () => {}, onBinary: () => {} },
-    );
-    connection.open();
+    const { sockets, phases } = openStream(async () => "down");
     await vi.advanceTimersByTimeAsync(20_000);
     expect(sockets.length, "it has tried again").toBeGreaterThan(1);
     expect(phases).toEqual([]);
@@ -54,24 +63,16 @@ describe("a stream with a slow first connection", () => {
     expect(new Set(phases.slice(1)), "a silent new connection is not live").toEqual(
       new Set(["lost"]),
     );
-    vi.useRealTimers();
-    vi.unstubAllGlobals();
   });
 });
 
 describe("a stream that stalls", () => {
   it("is busy, then blocked if the server reports that its sessions do not respond", async () => {
-    vi.useFakeTimers();
-    const sockets = stubSockets();
-    const phases: string[] = [];
     let result: ProbeResult = "blocked";
-    const connection = new StreamConnection(
-      () => new URL("ws://lab/stream"),
+    const { sockets, phases } = openStream(
       async () => result,
       async () => true,
-      { onPhase: (phase) => void phases.push(phase), onText: () => {}, onBinary: () => {} },
     );
-    connection.open();
     sockets[0]?.onmessage?.({ data: "{}" });
     await vi.advanceTimersByTimeAsync(4500);
     expect(phases).toEqual(["live", "busy"]);
@@ -82,21 +83,10 @@ describe("a stream that stalls", () => {
     expect(phases.at(-1), "the server has ended").toBe("lost");
     sockets.at(-1)?.onmessage?.({ data: "{}" });
     expect(phases.at(-1)).toBe("live");
-    vi.useRealTimers();
-    vi.unstubAllGlobals();
   });
 
   it("is slow after 2 s and lost after 5 s, and goes on with the same connection", async () => {
-    vi.useFakeTimers();
-    const sockets = stubSockets();
-    const phases: string[] = [];
-    const connection = new StreamConnection(
-      () => new URL("ws://lab/stream"),
-      () => new Promise(() => {}),
-      async () => false,
-      { onPhase: (phase) => void phases.push(phase), onText: () => {}, onBinary: () => {} },
-    );
-    connection.open();
+    const { sockets, phases } = openStream(() => new Promise(() => {}));
     sockets[0]?.onmessage?.({ data: "{}" });
     await vi.advanceTimersByTimeAsync(4500);
     expect(phases).toEqual(["live", "slow"]);
@@ -105,24 +95,13 @@ describe("a stream that stalls", () => {
     sockets[0]?.onmessage?.({ data: "{}" });
     expect(phases.slice(2)).toEqual(["live", "slow", "lost", "live"]);
     expect(sockets).toHaveLength(1);
-    vi.useRealTimers();
-    vi.unstubAllGlobals();
   });
 });
 
 describe("a stream whose session has ended", () => {
   it("reports it and does not reconnect automatically, unlike a broken one", async () => {
-    vi.useFakeTimers();
-    const sockets = stubSockets();
-    const findings: ProbeResult[] = ["up", "ended"];
-    const phases: string[] = [];
-    const connection = new StreamConnection(
-      () => new URL("ws://lab/stream"),
-      async () => findings.shift() ?? "down",
-      async () => false,
-      { onPhase: (phase) => void phases.push(phase), onText: () => {}, onBinary: () => {} },
-    );
-    connection.open();
+    const results: ProbeResult[] = ["up", "ended"];
+    const { sockets, phases } = openStream(async () => results.shift() ?? "down");
     sockets.at(-1)?.onclose?.();
     await vi.advanceTimersByTimeAsync(10_000);
     expect(sockets.length, "it was there: opened again").toBeGreaterThan(1);
@@ -131,7 +110,5 @@ describe("a stream whose session has ended", () => {
     await vi.advanceTimersByTimeAsync(60_000);
     expect(phases.at(-1)).toBe("ended");
     expect(sockets).toHaveLength(opened);
-    vi.useRealTimers();
-    vi.unstubAllGlobals();
   });
 });
