@@ -9,7 +9,7 @@ from tests.lab import Lab, run_lab
 from tests.server.blocked_lab import PROGRAM
 from tests.server.test_blocked_session import blocked, end_blocked
 from tests.slow_link import open_slow_link
-from tests.waiting import wait_until
+from tests.waiting import follow_recording, wait_until
 
 pytestmark = [pytest.mark.browser, pytest.mark.wall_clock]
 
@@ -90,3 +90,40 @@ def test_blocked_session_is_not_shown_as_a_slow_connection(page: Page) -> None:
             expect(page.get_by_role("alert")).to_contain_text("do not respond")
         assert page.evaluate("wasShown") is False
         assert end_blocked(lab, signal.SIGINT) == 1
+
+
+@pytest.mark.exhaustive
+def test_controls_and_a_replay_leave_samples_and_history_to_a_slow_link(
+    page: Page, lab: Lab
+) -> None:
+    """At 50 kB/s, and at 15 kB/s in between, so that the history arrives after the clicks."""
+    lab.load_figure()
+    lab.client.put(lab.session + "/lanes", json={"comparisons": [{"law": "fl"}]})
+    answer = lab.client.post(lab.session + "/recording", json={"name": "Slow"}).raise_for_status()
+    run = answer.json()["recording"]["run_id"]
+    lab.jump(21)
+    lab.client.delete(lab.session + "/recording").raise_for_status()
+    follow_recording(lab.client, f"/api/v1/runs/{run}")
+    lab.client.post(lab.session + "/start").raise_for_status()
+    newest = "Math.max(...svsa.series('position_rad').time)"
+    sockets: list[WebSocket] = []
+    page.on("websocket", lambda socket: sockets.append(socket))
+    with open_slow_link(lab.url, RATE_BPS, ROUND_TRIP_S) as link:
+        page.goto(link.url, wait_until="commit")
+        expect(page.locator(".statusbar").get_by_role("status").first).to_contain_text("Live")
+        wait_until(lambda: count_samples(page) > 0)
+        link.rate_bps = 15_000
+        page.get_by_role("switch", name="All controls").press("Enter")
+        expect(page.get_by_role("switch", name="All controls", checked=True)).to_be_attached()
+        with page.expect_request("**/replay") as replay:
+            page.get_by_role("navigation").get_by_role("link", name="Runs").first.press("Enter")
+            page.get_by_role("link", name="Slow").first.press("Enter")
+        assert count_samples(page) < 3900, "the history still arrives"
+        begin = page.evaluate(newest)
+        wait_until(lambda: page.evaluate(newest) > begin + 1.0)
+        link.rate_bps = RATE_BPS
+        assert replay.value.response().ok
+        wait_until(lambda: count_samples(page) > 3900)
+        end = page.evaluate(newest)
+        wait_until(lambda: page.evaluate(newest) > end + 1.0)
+        assert sum("/stream?" in socket.url for socket in sockets) == 1

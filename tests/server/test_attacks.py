@@ -27,6 +27,9 @@ from tests.benchmarks.attacks import (
     vanish,
 )
 from tests.lab import Lab
+from tests.server.sessions.test_slow_link import PAGE_STREAM, begin_lanes
+from tests.slow_link import open_slow_link
+from tests.waiting import wait_until
 
 GROWTH_MB, RECORDED_MB_PER_S = 100.0, 1.5
 """Memory that the allocators may keep after a peak, of which the end of a recording has one. On a
@@ -145,3 +148,21 @@ def test_holder_that_disconnects_loses_control(attacked: Lab) -> None:
     while attacked.read()["control"]["holder"] is not None:
         assert time.monotonic() < end
         time.sleep(0.1)
+
+
+@pytest.mark.exhaustive
+def test_slowly_reading_client_is_kept_and_dead_one_is_dropped(attacked: Lab) -> None:
+    """At 4 kB/s each pong takes half of the time in which the server waits for one."""
+    begin_lanes(attacked, 2)
+    attacked.client.post(attacked.session + "/start").raise_for_status()
+    headers = {"Authorization": attacked.client.headers["Authorization"]}
+    with open_slow_link(attacked.url, rate_bps=4000.0) as link:
+        address = link.url.replace("http", "ws") + attacked.session + "/stream" + PAGE_STREAM
+        with connect(address, proxy=None, additional_headers=headers, ping_interval=None) as stream:
+            begin = time.monotonic()
+            while time.monotonic() < begin + 8.0 * SILENCE_S:
+                stream.recv(timeout=LONGEST_S)
+            # Idle connections of other clients have ended by now.
+            kept = count_sockets(attacked)
+            link.is_open.clear()
+            wait_until(lambda: count_sockets(attacked) < kept)
