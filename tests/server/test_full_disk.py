@@ -143,11 +143,16 @@ def test_full_disk_leaves_no_empty_secret(disk: Path) -> None:
 
 
 @pytest.mark.exhaustive
-def test_leaderboard_on_a_read_only_disk_reports_it(disk: Path) -> None:
+def test_leaderboard_on_a_read_only_disk_reports_it(disk: Path, tmp_path: Path) -> None:
     with run_lab_in_process(data=str(disk)) as running:
-        # The catalogue's file stays open for writing: a second, read-only mount of the same disk.
-        for options in (["--bind", str(disk)], ["-o", "remount,bind,ro"]):
-            subprocess.run(["mount", *options, str(disk)], check=True)
+        # The catalogue's file stays open for writing: a second, read-only mount of the same disk,
+        # made read-only aside, where nobody can open a file between the two steps.
+        aside = tmp_path / "read_only"
+        aside.mkdir()
+        subprocess.run(["mount", "--bind", str(disk), str(aside)], check=True)
+        subprocess.run(["mount", "-o", "remount,bind,ro", str(aside)], check=True)
+        subprocess.run(["mount", "--bind", str(aside), str(disk)], check=True)
+        subprocess.run(["umount", str(aside)], check=True)
         read = running.client.get("/api/v1/leaderboard")
         answer = running.client.post("/api/v1/leaderboard/laws")
         subprocess.run(["umount", "--lazy", str(disk)], check=True)
