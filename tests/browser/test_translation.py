@@ -1,13 +1,18 @@
 """A page that the browser translates shows the state of the lab, and has no error."""
 
 import re
+import tempfile
 from collections.abc import Callable, Iterator
+from pathlib import Path
 
 import pytest
 from playwright.sync_api import Page, expect
 
+from svsa_server.access.class_keys import ClassKeys
+from tests.browser.test_class import find_control, join
 from tests.browser.test_page import open_page, wait_for_samples
-from tests.lab import Lab
+from tests.browser.test_tuning import open_tuning, tune
+from tests.lab import Lab, run_lab
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("without_3d", "still")]
 
@@ -123,3 +128,75 @@ def test_only_explanations_are_translated(translated: Page, lab: Lab, name: str)
         expect(tabs.get_by_role("link", name=tab, exact=True).first).to_have_attribute(
             "aria-current", "page"
         )
+
+
+def check_translated(page: Page) -> None:
+    assert page.evaluate(WRONG) == []
+    expect(page.locator("font", has_text="\u00a7").first).to_be_attached()
+
+
+def change_session(page: Page, lab: Lab, request: dict[str, str]) -> None:
+    """Change a private session through the API until it ends, in front of the page."""
+    opened = lab.client.post("/api/v1/sessions", json=request).raise_for_status().json()
+    session = f"/api/v1/sessions/{opened['session']}"
+    page.goto(f"{lab.url}/?session={opened['session']}")
+    status = page.get_by_role("region", name="Status", exact=True)
+    expect(status).to_contain_text("Live")
+    page.evaluate(TRANSLATE)
+    for command, words in (("pause", "Paused"), ("start", "Running"), ("pause", "Paused")):
+        lab.client.post(f"{session}/{command}").raise_for_status()
+        expect(status).to_contain_text(words)
+        check_translated(page)
+    lab.client.delete(session).raise_for_status()
+    banner = page.get_by_role("complementary", name="Private session")
+    expect(banner).to_contain_text("has ended")
+
+
+def follow_a_job(page: Page, lab: Lab) -> None:
+    lab.load_figure(law="fl_integral")
+    lab.jump(1)
+    open_page(page, lab)
+    panel = open_tuning(page)
+    page.evaluate(TRANSLATE)
+    check_translated(page)
+    result = tune(panel)
+    row = panel.get_by_role("table").first.get_by_role("row").nth(1)
+    tried = float(row.get_by_role("cell").nth(1).inner_text())
+    assert tried == pytest.approx(result["best"]["values"][0], rel=1e-3)
+
+
+def join_a_class(page: Page, lab: Lab) -> None:
+    with tempfile.TemporaryDirectory() as folder:
+        _, secrets = ClassKeys.open(Path(folder))
+        assert secrets is not None
+        with run_lab("--class", data=folder) as classroom:
+            page.goto(classroom.url)
+            expect(page.get_by_label("Your name")).to_be_visible()
+            page.evaluate(TRANSLATE)
+            page.get_by_label("Your name").fill("Ada")
+            page.get_by_label("Class code").fill("wrong")
+            page.get_by_role("button", name="Join", exact=True).click()
+            expect(page.get_by_role("alert")).to_be_visible()
+            check_translated(page)
+            join(page, "Ada", secrets.code)
+            page.get_by_role("button", name="Request control").first.click()
+            expect(find_control(page)).to_contain_text("You")
+            check_translated(page)
+            page.goto("about:blank")
+
+
+SCENES: dict[str, Callable[[Page, Lab], None]] = {
+    "private session": lambda page, lab: change_session(page, lab, {}),
+    "arm": lambda page, lab: change_session(page, lab, {"from": "arm"}),
+    "job": follow_a_job,
+    "class": join_a_class,
+}
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("follow", SCENES.values(), ids=SCENES)
+def test_other_states_are_true_after_a_translation(
+    translated: Page, lab: Lab, follow: Callable[[Page, Lab], None]
+) -> None:
+    follow(translated, lab)
+    assert translated.evaluate(WRONG) == []
