@@ -146,7 +146,7 @@ def test_full_disk_leaves_no_empty_secret(disk: Path) -> None:
 def test_leaderboard_on_a_read_only_disk_reports_it(disk: Path, tmp_path: Path) -> None:
     with run_lab_in_process(data=str(disk)) as running:
         # The catalogue's file stays open for writing: a second, read-only mount of the same disk,
-        # made read-only aside, where nobody can open a file between the two steps.
+        # made read-only aside, where no process opens a file between the two steps.
         aside = tmp_path / "read_only"
         aside.mkdir()
         subprocess.run(["mount", "--bind", str(disk), str(aside)], check=True)
