@@ -1,6 +1,7 @@
 """The OpenAPI schema: the routes, and additions that apply to all of them."""
 
 import asyncio
+import re
 from collections.abc import Callable
 from functools import cache
 from typing import Any
@@ -27,7 +28,9 @@ PERMISSION = "x-permission"
 
 _METHODS = ("get", "put", "post", "patch", "delete")
 _PROBLEM = {"schema": {"$ref": "#/components/schemas/Problem"}}
-
+_ATTRIBUTES = re.compile(r"\n\nAttributes:((?:\n {4}.*)+)")
+_ATTRIBUTE = re.compile(r"^ {4}(\w+): (.*(?:\n {8}.*)*)", re.MULTILINE)
+_NO_VALUE = re.compile(r"\b(None|NaN)\b")
 
 _LINKS = {
     "AddedLoad": {"read_load": ("load_id", "/id")},
@@ -93,7 +96,20 @@ def _build_schema(
     schema = get_openapi(
         title=title, version=version, description=description, routes=routes, tags=_TAGS
     )
+    for model in schema["components"]["schemas"].values():
+        _describe_properties(model)
     return _complete(schema, PermissionTable(routes), needs_secret)
+
+
+def _describe_properties(model: dict[str, Any]) -> None:
+    """Move the attributes of a docstring to the properties; None and NaN are null in JSON."""
+    text = model.get("description", "")
+    if attributes := _ATTRIBUTES.search(text):
+        model["description"] = text.replace(attributes[0], "")
+        for name, meaning in _ATTRIBUTE.findall(attributes[1]):
+            if name in model.get("properties", {}):
+                meaning = _NO_VALUE.sub("null", " ".join(meaning.split())).removesuffix(".")
+                model["properties"][name].setdefault("description", meaning)
 
 
 def _complete(

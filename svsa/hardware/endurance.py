@@ -2,7 +2,8 @@
 
 import math
 from collections.abc import Iterable
-from typing import Literal, NamedTuple
+from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
@@ -19,14 +20,15 @@ _STEP_S, _STRETCH_S = 0.01, 1.0
 Motor = Literal["motor1", "motor2"]
 
 
-class Endurance(NamedTuple):
-    """A motor that a load overheats.
+@dataclass(frozen=True)
+class Endurance:
+    """A motor that a load overheats: from when on heat limits its torque.
 
     Attributes:
-        motor: Number of the motor.
-        torque_nm: Demanded rms torque, N·m.
+        motor: The motor.
+        torque_nm: Torque demanded under the load, rms, N·m.
         lasting_torque_nm: Continuous rating, N·m.
-        seconds: Time from the load's onset, with a cold motor, until heat limits its torque, s.
+        seconds: Time from the load's onset until heat limits the torque, starting cold, s.
     """
 
     motor: Motor

@@ -8,7 +8,15 @@ from collections.abc import Sequence
 from numbers import Real
 from typing import Annotated, Any, ClassVar, NamedTuple, Self
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, Strict, ValidationError
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    Strict,
+    ValidationError,
+    WithJsonSchema,
+)
 
 from svsa.errors import ParameterError, Violation, write_number
 from svsa.inputs.explanation import explain
@@ -27,6 +35,11 @@ Whole = Annotated[int, Strict(), BeforeValidator(_read_whole)]
 """An integer; 8.0 is accepted, too, as in JSON Schema. Bounds belong to the field: in an
 `Annotated` they are checked, but are missing in the JSON Schema.
 """
+
+FiniteOrNull = Annotated[
+    float, WithJsonSchema({"anyOf": [{"type": "number"}, {"type": "null"}]}, mode="serialization")
+]
+"""A number of an answer; infinity and NaN are null in JSON, which has neither."""
 
 BY_KIND = Field(discriminator="kind", json_schema_extra={"required": ["kind"]})
 """Discriminator of a union: its required `kind` is the type of a value."""

@@ -119,6 +119,17 @@ def test_schema_in_the_docs_is_that_of_the_server_with_unique_operations() -> No
     assert all(re.fullmatch(r"[a-z][a-z_]{2,24}", one) for one in ids)
 
 
+def test_docstring_of_the_library_describes_the_fields_of_an_answer() -> None:
+    models = SCHEMA["components"]["schemas"]
+    assert not [name for name, model in models.items() if "Attributes:" in str(model)]
+    verdict = models["ChannelVerdict"]["properties"]
+    assert verdict["outside_s"]["description"] == (
+        "Total time outside the band, s, counting every tick"
+    )
+    assert verdict["excess"]["description"].endswith("null if one of both values is unknown")
+    assert verdict["excess"]["anyOf"] == [{"type": "number"}, {"type": "null"}]
+
+
 def test_stream_is_documented_next_to_rest_as_packed() -> None:
     operation = SCHEMA["paths"][STREAM]["get"]
     text = operation["description"]

@@ -1,7 +1,6 @@
 """Responses, stability, margins and initial states of a design, for `POST …/design`."""
 
 import asyncio
-import math
 from collections.abc import Sequence
 from typing import Literal
 
@@ -28,7 +27,6 @@ from svsa.analysis.design.stability import Stability, assess
 from svsa.control.installed import get_law
 from svsa.runs.configuration import Configuration
 from svsa_server.jobs.heavy_work import HeavyWork
-from svsa_server.schemas.lab.gain import Root
 from svsa_server.schemas.lab.stability import (
     FrequencyResponseState,
     LoadResponseState,
@@ -37,7 +35,6 @@ from svsa_server.schemas.lab.stability import (
     RegionState,
     ResponseState,
     StabilityState,
-    StableRangeState,
     StartOutcomeState,
 )
 
@@ -48,7 +45,7 @@ async def compute_load_response(configuration: Configuration, sigma: float) -> R
     """Compute the error after the 3 kg, and for a sine on the link."""
     load = await asyncio.to_thread(simulate_load, configuration, sigma)
     response = await asyncio.to_thread(compute_disturbance_response, configuration, sigma)
-    encoders = _name_encoders(configuration)
+    encoders = name_encoders(configuration)
     radius = response.radius
     if encoders == "rig":
         radius = await asyncio.to_thread(_compute_sensed_radius, configuration, sigma)
@@ -79,7 +76,7 @@ async def measure_margins(
     return MarginsState(
         law=configuration.law,
         stiffness_nm_per_rad=sigma,
-        encoders=_name_encoders(configuration),
+        encoders=name_encoders(configuration),
         **margins.to_json(),
     )
 
@@ -96,14 +93,11 @@ async def map_attraction(
         law=configuration.law,
         chosen=request.chosen,
         stiffness_nm_per_rad=sigma,
-        encoders=_name_encoders(configuration),
+        encoders=name_encoders(configuration),
         positions_rad=starts.positions.tolist(),
         velocities_rad_per_s=starts.velocities.tolist(),
         outcomes=[
-            StartOutcomeState(
-                row=cell.row, column=cell.column, outcome=result.outcome, after_s=result.after_s
-            )
-            for cell, result in outcomes
+            StartOutcomeState(**cell._asdict(), **result._asdict()) for cell, result in outcomes
         ],
         next=end if end < request.starts**2 else None,
     )
@@ -124,7 +118,8 @@ def _find_part(
     return list(find_start_outcomes(configuration, sigma, starts, cells))
 
 
-def _name_encoders(configuration: Configuration) -> Literal["session", "rig"]:
+def name_encoders(configuration: Configuration) -> Literal["session", "rig"]:
+    """Return whose encoders `choose_sensing` selects: the session's, or the rig's."""
     return "session" if configuration.effects.encoders is not None else "rig"
 
 
@@ -134,7 +129,7 @@ def _build_load(response: LoadResponse) -> LoadResponseState:
         time_s=response.time[::stride].tolist(),
         position_error_rad=response.error[::stride].tolist(),
         peak_error_rad=float(np.max(np.abs(response.error), initial=0.0)),
-        fault=response.fault or None,
+        fault=response.fault,
     )
 
 
@@ -151,22 +146,18 @@ def _build_stability(
     return StabilityState(
         law=configuration.law,
         stiffness_nm_per_rad=sigma,
-        poles_rad_per_s=[Root(re=s.real, im=s.imag) for s in loop.poles.tolist()],
+        poles_rad_per_s=loop.poles.tolist(),
         slowest_rad_per_s=loop.slowest,
         least_damping=loop.least_damping,
         largest_pole=radius,
-        ranges=[StableRangeState(**stable_range._asdict()) for stable_range in stability.ranges],
+        ranges=stability.ranges,
         least_ratio=MIN_RATIO,
         greatest_ratio=MAX_RATIO,
-        ramp_gain_rad_s_per_nm=_finite(gain.ramp),
-        l1_gain_rad_s_per_nm=_finite(gain.l1),
+        ramp_gain_rad_s_per_nm=gain.ramp,
+        l1_gain_rad_s_per_nm=gain.l1,
         formula_rad_s_per_nm=stability.formula,
         floor_rad_s_per_nm=stability.floor,
         is_observed=get_law(configuration.law).estimate == "observer",
         fastest_observer_rad_per_s=stability.fastest_observer,
-        encoders=_name_encoders(configuration),
+        encoders=name_encoders(configuration),
     )
-
-
-def _finite(value: float) -> float | None:
-    return value if math.isfinite(value) else None

@@ -4,21 +4,14 @@ import logging
 import threading
 import time
 from collections.abc import Callable
-from typing import NamedTuple
 
 from svsa.runs.records.catalogue.entry import CatalogueError
 from svsa.runs.records.catalogue.runs import Catalogue
+from svsa_server.schemas.runs.run import IndexProgress
 from svsa_server.sessions.recording import NoCatalogue
 
 REPORT_S = 5.0
 _log = logging.getLogger("svsa")
-
-
-class Indexed(NamedTuple):
-    """Runs read since the start, and the number of runs to read."""
-
-    done: int
-    total: int
 
 
 class Indexing:
@@ -36,12 +29,12 @@ class Indexing:
     ) -> None:
         self._catalogue, self._report = catalogue, report
         self._stop = threading.Event()
-        self._indexed: Indexed | None = Indexed(0, 0)
+        self._indexed: IndexProgress | None = IndexProgress(done=0, total=0)
         self._thread = threading.Thread(target=self._run, name="index of runs", daemon=True)
         self._thread.start()
 
     @property
-    def progress(self) -> Indexed | None:
+    def progress(self) -> IndexProgress | None:
         """Progress; None once the list is complete."""
         return self._indexed
 
@@ -67,7 +60,7 @@ class Indexing:
         total = 0
         begin = last_report = before = time.monotonic()
         for done, total in self._catalogue.index():
-            self._indexed = Indexed(done, total)
+            self._indexed = IndexProgress(done=done, total=total)
             now = time.monotonic()
             if now - last_report > REPORT_S:
                 last_report = now

@@ -12,7 +12,6 @@ from svsa.hardware.session.session import BenchSession
 from svsa.runs.arm.run import ArmRun
 from svsa.runs.configuration import ArmSetup, Configuration
 from svsa.runs.metrics import Metrics
-from svsa.runs.records.header import BranchPoint
 from svsa.runs.records.recorder import Recorder
 from svsa.runs.run import Run
 from svsa.runs.session.journal import Journal
@@ -24,10 +23,9 @@ from svsa_server.leases.lease import ControlLease, asking
 from svsa_server.leases.queue import ControlQueue
 from svsa_server.runs.lanes import build_window, list_ended_windows, list_session_segments
 from svsa_server.schemas.lab.actuator import summarize_actuator
-from svsa_server.schemas.lab.gain import GainsState, Root
+from svsa_server.schemas.lab.gain import GainsState
 from svsa_server.schemas.lab.lease import ControlState, QueueState, WaitingState
 from svsa_server.schemas.lab.session import (
-    BranchState,
     CommandState,
     LoadState,
     SessionProgress,
@@ -94,7 +92,7 @@ def build_state(hosted: HostedSession, since_tick: int = 0) -> SessionState:
         instance=hosted.instance,
         revision=hosted.revision,
         last_command=_build_last_command(session.journal),
-        branch_of=_build_branch(session.journal.branch_of),
+        branch_of=session.journal.branch_of,
         note=hosted.note,
         exercise=hosted.before_exercise and hosted.before_exercise.exercise,
         control=build_control(hosted),
@@ -137,10 +135,6 @@ def _build_last_command(journal: Journal) -> CommandState | None:
         time_s = command.tick * journal.run.period_s
         return CommandState(kind=command.kind, tick=command.tick, time_s=time_s)
     return None
-
-
-def _build_branch(branch_of: BranchPoint | None) -> BranchState | None:
-    return None if branch_of is None else BranchState(run_id=branch_of.run_id, tick=branch_of.tick)
 
 
 def _build_recording(recorder: Recorder | None) -> RecordingState | None:
@@ -192,33 +186,23 @@ def _build_arm(arm: ArmSetup | None) -> ArmSetupState | None:
 
 
 def _build_configuration(configuration: Configuration) -> ConfigurationState:
-    return ConfigurationState(
-        law=configuration.law,
-        position=configuration.position,
-        stiffness=configuration.stiffness,
-        gains=_build_gains(configuration.gains),
-        parameters={
+    own = {
+        "gains": _build_gains(configuration.gains),
+        "parameters": {
             law: parameters.model_dump(mode="json")
             for law, parameters in configuration.list_parameters().items()
         },
-        observer=configuration.observer,
-        limits=configuration.limits,
-        actuator=configuration.actuator,
-        nominal=configuration.nominal,
-        comparisons=configuration.comparisons,
-        effects=configuration.effects,
-        effects_preset=find_preset(configuration.effects),
-        seed=configuration.seed,
-        arm=_build_arm(configuration.arm),
-    )
+        "effects_preset": find_preset(configuration.effects),
+        "arm": _build_arm(configuration.arm),
+    }
+    return ConfigurationState(**dict(configuration) | own)
 
 
 def _build_gains(gains: Gains) -> GainsState:
     return GainsState(
-        position_coefficients=list(gains.position_coefficients),
-        stiffness_coefficients=list(gains.stiffness_coefficients),
-        position_roots_rad_per_s=[Root(re=r.real, im=r.imag) for r in gains.position_roots],
-        stiffness_roots_rad_per_s=[Root(re=r.real, im=r.imag) for r in gains.stiffness_roots],
+        **dict(gains),
+        position_roots_rad_per_s=gains.position_roots,
+        stiffness_roots_rad_per_s=gains.stiffness_roots,
     )
 
 

@@ -166,13 +166,12 @@ def _count_periods(hosted: HostedSession, now: float) -> tuple[float, int]:
 
 def _greet(hosted: HostedSession, cursor: SampleCursor, channels: tuple[str, ...]) -> str:
     session = hosted.session
-    named = [CHANNELS[CHANNEL_INDEX[name]] for name in channels]
     return Hello(
         session=session.name,
         period_s=session.run.period_s,
         rate_hz=cursor.rate_hz,
         lanes=[lane + 1 for lane in cursor.read_lanes()],
-        channels=[StreamChannel(**vars(channel)) for channel in named],
+        channels=[StreamChannel.model_validate(CHANNELS[CHANNEL_INDEX[name]]) for name in channels],
         batch=lay_out_batch(),
         state=build_state(hosted),
     ).model_dump_json()

@@ -12,6 +12,7 @@ valid for small motions, while neither torque is at its limit.
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass
 from itertools import product
 from typing import Any, NamedTuple
 
@@ -39,12 +40,13 @@ _RADII = np.geomspace(0.05, 2.0 * MAX_ERROR, 32)
 _STARTS, _STEPS, _CLOSE = 4, 30, 1e-4
 
 
-class GainRange(NamedTuple):
-    """Factors on one torque, with 1 on the other, between which the loop stays stable.
+@dataclass(frozen=True)
+class GainRange:
+    """Factors on one torque for which the loop stays stable, with the other torque unchanged.
 
     Attributes:
-        low: Lower bound; None if there is none above `MIN_GAIN`.
-        high: Upper bound; None if there is none below `MAX_GAIN`.
+        low: Lower end of the stable range; None if stable down to 0.01.
+        high: Upper end of the stable range; None if stable up to 100.
     """
 
     low: float | None
@@ -104,8 +106,8 @@ class Margins(NamedTuple):
             "largest_pole": self.radius,
             "modulus": self.modulus,
             "delay_s": self.delay_s,
-            "torque1_gain": self.gain1 and self.gain1._asdict(),
-            "torque2_gain": self.gain2 and self.gain2._asdict(),
+            "torque1_gain": self.gain1 and vars(self.gain1),
+            "torque2_gain": self.gain2 and vars(self.gain2),
             "joint_error": self.error and self.error.norm,
             "joint_errors": self.error and dict(zip(SYMBOLS, self.error.errors, strict=True)),
         }

@@ -36,7 +36,7 @@ _KINDS: tuple[Kind, ...] = ("refuse", "warn", "note")
 
 @dataclass(frozen=True)
 class Reason:
-    """A finding about a design.
+    """One finding about the design.
 
     Attributes:
         kind: Severity.

@@ -54,7 +54,7 @@ class Report(NamedTuple):
             "poles_rad_per_s": [[pole.real, pole.imag] for pole in loop.poles.tolist()],
             "slowest_rad_per_s": loop.slowest,
             "least_damping": loop.least_damping,
-            "ranges": [stable_range._asdict() for stable_range in self.stability.ranges],
+            "ranges": [vars(stable_range) for stable_range in self.stability.ranges],
             "error_deg_per_nm_per_s": {
                 "linear": _finite(math.degrees(gain.ramp)),
                 "l1": _finite(math.degrees(gain.l1)),

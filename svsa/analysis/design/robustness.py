@@ -1,8 +1,8 @@
 """Ranges of parameter errors for which the closed loop about rest stays stable."""
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import partial
-from typing import NamedTuple
 
 from svsa.analysis.design.closed_loop import LawDerivatives, connect, linearize_law
 from svsa.runs.configuration import Configuration
@@ -21,15 +21,15 @@ _STRIDE = 1.12
 _CLOSE = 1e-4
 
 
-class StableRange(NamedTuple):
-    """The range of one parameter, true over nominal, for which the loop is Hurwitz; all others
-    nominal.
+@dataclass(frozen=True)
+class StableRange:
+    """True over nominal value of one parameter for which the loop is Hurwitz; all others nominal.
 
     Attributes:
         parameter: Its name in `ActuatorParameters`.
         symbol: The paper's symbol.
-        low: Lower bound; None if the loop is stable down to `MIN_RATIO`.
-        high: Upper bound; None if the loop is stable up to `MAX_RATIO`.
+        low: Lower end of the stable range; None if stable down to the least ratio.
+        high: Upper end of the stable range; None if stable up to the greatest ratio.
         present: The ratio in the configuration.
     """
 

@@ -46,7 +46,7 @@ class RecordError(SvsaError):
 
 @dataclass(frozen=True)
 class BranchPoint:
-    """The origin of a branch: the id of a run, and the tick from which it continues."""
+    """The recorded run that a session continues, and the tick at which it branched."""
 
     run_id: str
     tick: int

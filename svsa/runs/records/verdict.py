@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from svsa.errors import ParameterError, Violation
-from svsa.inputs.checked import Checked, Number, quantity
+from svsa.inputs.checked import Checked, FiniteOrNull, Number, quantity
 from svsa.runs.records.header import RecordError
 from svsa.runs.records.reader import Record
 from svsa.runs.records.resimulation import compare_channels
@@ -35,19 +35,19 @@ FROM_THE_FIRST = (0, 0)
 
 @dataclass(frozen=True)
 class ChannelVerdict:
-    """Result of comparing a channel of a lane.
+    """The verdict of a channel of a lane; times are those of the run under test.
 
     Attributes:
         held: Whether all samples are within the band.
         worst_s: Time of the largest deviation outside the band, or of the smallest distance to its
             bounds inside.
-        value: Value at that time.
-        low: Lower bound of the band at that time.
-        high: Upper bound of the band at that time.
+        value: Value at that time; null in JSON if not finite.
+        low: Lower bound of the band at that time, as `value`.
+        high: Upper bound of the band at that time, as `value`.
         excess: Distance outside the band at that time, negative inside; NaN if one of both values
             is unknown.
-        outside: Intervals outside the band, s, in order; intervals closer than a `MAX_OUTSIDE`-th
-            of the compared time are joined.
+        outside: Intervals outside the band, s, in order; intervals closer than 1/500 of the
+            compared time are joined.
         outside_s: Total time outside the band, s, counting every tick.
     """
 
@@ -56,10 +56,10 @@ class ChannelVerdict:
     unit: str
     held: bool
     worst_s: float
-    value: float
-    low: float
-    high: float
-    excess: float
+    value: FiniteOrNull
+    low: FiniteOrNull
+    high: FiniteOrNull
+    excess: FiniteOrNull
     outside: tuple[tuple[float, float], ...]
     outside_s: float
 

@@ -6,14 +6,14 @@ from typing import Annotated
 from fastapi import Body
 
 from svsa.errors import StateError
-from svsa.hardware.endurance import find_endurance
+from svsa.hardware.endurance import Endurance, find_endurance
 from svsa.hardware.session.session import BenchSession
 from svsa.runs.session.session import Session
 from svsa.simulation.plant.loads import Load
 from svsa_server.access.permissions import OBSERVER, OPERATOR, allow
 from svsa_server.routes.depends import REFUSALS, NamedSession
 from svsa_server.routing import build_router
-from svsa_server.schemas.hardware.bench import EnduranceState, HomingRequest
+from svsa_server.schemas.hardware.bench import HomingRequest
 from svsa_server.schemas.lab.session import SessionState
 from svsa_server.sessions.lock import WaitingRoute
 from svsa_server.sessions.state import build_state
@@ -66,7 +66,7 @@ def restart_loop(hosted: NamedSession) -> SessionState:
 async def predict_heat(
     hosted: NamedSession,
     load: Annotated[Load, Body(examples=[{"kind": "paper"}])],
-) -> EnduranceState | None:
+) -> Endurance | None:
     """Predict which motor overheats under this load within 30 s, and when; null if none does.
 
     For the current settings and active loads plus this one; computed on the simulated twin with
@@ -75,10 +75,7 @@ async def predict_heat(
     session = _find_bench(hosted.session)
     run = session.run
     on = [held.load for held in run.loads if held.is_on(run.tick)]
-    endurance = await asyncio.to_thread(
-        find_endurance, session.bench, run.configuration, [*on, load]
-    )
-    return endurance and EnduranceState(**endurance._asdict())
+    return await asyncio.to_thread(find_endurance, session.bench, run.configuration, [*on, load])
 
 
 def _find_bench(session: Session) -> BenchSession:

@@ -5,11 +5,12 @@ from typing import Annotated
 from fastapi import Body, Depends
 
 from svsa.errors import StateError
+from svsa.runs.arm.experiment import ARMS
 from svsa.runs.command import Set
 from svsa_server.access.permissions import OBSERVER, OPERATOR, allow
 from svsa_server.routes.depends import CHANGED, REFUSALS, NamedSession, check_unchanged
 from svsa_server.routing import build_router
-from svsa_server.schemas.lab.arm import AT_ONCE, ArmPatch, NamedArmState, list_arms
+from svsa_server.schemas.lab.arm import AT_ONCE, ArmPatch, NamedArmState
 from svsa_server.schemas.lab.session import SessionState
 from svsa_server.sessions.lock import WaitingRoute
 from svsa_server.sessions.state import build_state
@@ -21,7 +22,7 @@ router = build_router("", tags=["lab"], responses=REFUSALS | CHANGED, route_clas
 @allow(OBSERVER)
 async def read_arms() -> list[NamedArmState]:
     """List the arms of two joints that a session can simulate."""
-    return list_arms()
+    return [NamedArmState(name=name, **arm._asdict()) for name, arm in ARMS.items()]
 
 
 @router.patch("/sessions/{session}/arm", dependencies=[Depends(check_unchanged)])

@@ -7,7 +7,8 @@ from pydantic import BaseModel, Field
 
 from svsa.actuators.signals import CHANNEL_INDEX
 from svsa.errors import StateError
-from svsa.runs.claims import CLAIM_LAWS, ClaimNumbers, judge_claim, measure_claim
+from svsa.inputs.checked import FiniteOrNull
+from svsa.runs.claims import CLAIM_LAWS, judge_claim, measure_claim
 from svsa.runs.metrics import MEASURED
 from svsa_server.access.permissions import OBSERVER, allow
 from svsa_server.routes.depends import REFUSALS, NamedSession
@@ -21,11 +22,11 @@ class ClaimNumbersState(BaseModel):
     """The numbers of one law; null if the run did not reach the window."""
 
     law: str
-    before_deg: float | None = Field(description="rms position error, 1-5 s")
-    peak_deg: float | None = Field(description="Greatest position error, 5-7 s")
-    steady_deg: float | None = Field(description="rms position error, 8-20 s")
-    stiffness_before_nm_per_rad: float | None = Field(description="rms stiffness error, 1-5 s")
-    stiffness_steady_nm_per_rad: float | None = Field(description="rms stiffness error, 8-20 s")
+    before_deg: FiniteOrNull = Field(description="rms position error, 1-5 s")
+    peak_deg: FiniteOrNull = Field(description="Greatest position error, 5-7 s")
+    steady_deg: FiniteOrNull = Field(description="rms position error, 8-20 s")
+    stiffness_before_nm_per_rad: FiniteOrNull = Field(description="rms stiffness error, 1-5 s")
+    stiffness_steady_nm_per_rad: FiniteOrNull = Field(description="rms stiffness error, 8-20 s")
 
 
 class ClaimPart(BaseModel):
@@ -66,13 +67,8 @@ def compare_claim(
     judged = judge_claim(figure, fl, ndobc)
     return ClaimState(
         numbers=[
-            _describe_numbers(law, numbers) for law, numbers in zip(laws, (fl, ndobc), strict=True)
+            ClaimNumbersState(law=law, **numbers._asdict())
+            for law, numbers in zip(laws, (fl, ndobc), strict=True)
         ],
         parts=[ClaimPart.model_validate({"part": part, "holds": judged[part]}) for part in judged],
     )
-
-
-def _describe_numbers(law: str, numbers: ClaimNumbers) -> ClaimNumbersState:
-    """Replace NaN by null for JSON."""
-    values = {name: value if value == value else None for name, value in numbers._asdict().items()}
-    return ClaimNumbersState(law=law, **values)

@@ -1,13 +1,11 @@
 """Analyze a design before it is applied: predictions, stability, margins, initial states."""
 
 import asyncio
-import math
 from typing import Annotated
 
 from fastapi import Body
 
 from svsa.analysis.design import prediction
-from svsa.analysis.design.steady_error import SteadyError
 from svsa.control.gains import Gains, compute_roots
 from svsa.control.installed import get_title
 from svsa.errors import ParameterError
@@ -17,15 +15,7 @@ from svsa.runs.session.session import Session
 from svsa_server.access.permissions import OBSERVER, allow
 from svsa_server.routes.depends import BUSY, REFUSALS, NamedSession, Work
 from svsa_server.routing import build_router
-from svsa_server.schemas.lab.design import (
-    LoopNoiseState,
-    Prediction,
-    PredictionRequest,
-    ReasonState,
-    SteadyStateErrorState,
-    TorqueDemandState,
-)
-from svsa_server.schemas.lab.gain import Root
+from svsa_server.schemas.lab.design import Prediction, PredictionRequest
 from svsa_server.schemas.lab.stability import (
     AnalysisRequest,
     MarginsState,
@@ -39,6 +29,7 @@ from svsa_server.sessions.design import (
     compute_stability,
     map_attraction,
     measure_margins,
+    name_encoders,
 )
 from svsa_server.sessions.evaluated_design import build_trial, read_design_basis
 
@@ -124,10 +115,10 @@ def _refuse(
 ) -> Prediction:
     return Prediction(
         verdict="refuse",
-        reasons=[ReasonState(kind="refuse", code="gains", message=message)],
+        reasons=(prediction.Reason("refuse", "gains", message),),
         stiffness_nm_per_rad=sigma,
-        position_roots_rad_per_s=_build_roots(compute_roots(position)),
-        stiffness_roots_rad_per_s=_build_roots(compute_roots(stiffness)),
+        position_roots_rad_per_s=compute_roots(position),
+        stiffness_roots_rad_per_s=compute_roots(stiffness),
         law=get_title(law),
         steady=None,
         adds_estimate=False,
@@ -140,43 +131,14 @@ def _refuse(
 def _build_prediction(
     configuration: Configuration, predicted: prediction.Prediction, sigma: float
 ) -> Prediction:
-    noise, demand = predicted.noise, predicted.demand
-    is_own = configuration.effects.encoders is not None
+    fields = vars(predicted) | {
+        "verdict": predicted.verdict,
+        "noise": predicted.noise._asdict() | {"encoders": name_encoders(configuration)},
+    }
     return Prediction(
-        verdict=predicted.verdict,
-        reasons=[
-            ReasonState(kind=reason.kind, code=reason.code, message=reason.message)
-            for reason in predicted.reasons
-        ],
+        **fields,
         stiffness_nm_per_rad=sigma,
-        position_roots_rad_per_s=_build_roots(configuration.gains.position_roots),
-        stiffness_roots_rad_per_s=_build_roots(configuration.gains.stiffness_roots),
+        position_roots_rad_per_s=configuration.gains.position_roots,
+        stiffness_roots_rad_per_s=configuration.gains.stiffness_roots,
         law=get_title(configuration.law),
-        steady=_build_steady(predicted.steady),
-        adds_estimate=predicted.adds_estimate,
-        fl=_build_steady(predicted.fl),
-        noise=LoopNoiseState(
-            torque1_rms_nm=noise.u1 if math.isfinite(noise.u1) else None,
-            torque2_rms_nm=noise.u2 if math.isfinite(noise.u2) else None,
-            largest_pole=noise.radius,
-            encoders="session" if is_own else "rig",
-        ),
-        demand=TorqueDemandState(
-            peak_torque1_nm=demand.peak1_nm,
-            peak_torque2_nm=demand.peak2_nm,
-            limited_s=demand.limited_s,
-            fault=demand.fault or None,
-        ),
     )
-
-
-def _build_steady(error: SteadyError | None) -> SteadyStateErrorState | None:
-    return error and SteadyStateErrorState(
-        position_error_rad=error.position,
-        stiffness_error_nm_per_rad=error.stiffness,
-        deflection_rad=error.deflection,
-    )
-
-
-def _build_roots(roots: list[complex]) -> list[Root]:
-    return [Root(re=root.real, im=root.imag) for root in roots]

@@ -1,6 +1,5 @@
 """A recorded run compared with others: different settings, and a verdict with tolerances."""
 
-from dataclasses import asdict
 from typing import Annotated
 
 import numpy as np
@@ -16,8 +15,8 @@ from svsa_server.access.owned import Owned
 from svsa_server.access.permissions import OBSERVER, allow
 from svsa_server.routes.depends import REFUSALS, RunId, Runs
 from svsa_server.routing import build_router
-from svsa_server.schemas.runs.run import RunDifference, SettingDifference
-from svsa_server.schemas.runs.verdict import Band, RunVerdict, VerdictRequest, build_channel_state
+from svsa_server.schemas.runs.run import RunDifference
+from svsa_server.schemas.runs.verdict import Band, RunVerdict, VerdictRequest
 
 router = build_router(tags=["runs"], responses=REFUSALS)
 EXAMPLE = {
@@ -46,7 +45,7 @@ def read_difference(
     return RunDifference(
         runs=ids,
         titles=[runs.get(identifier).title for identifier in ids],
-        differences=[SettingDifference(**asdict(difference)) for difference in differences],
+        differences=differences,
     )
 
 
@@ -63,15 +62,10 @@ def judge_run(
     verdict = judge(run, other, comparison.tolerances, comparison.rest, begins)
     points = comparison.points
     return RunVerdict(
-        held=verdict.held,
-        ticks=verdict.ticks,
+        **vars(verdict),
         compared_s=verdict.ticks * run.header.period_s,
-        own_ticks=verdict.own_ticks,
-        other_ticks=verdict.other_ticks,
         begin_s=(run.first_tick + begins[0]) * run.header.period_s,
         other_begin_s=(other.first_tick + begins[1]) * other.header.period_s,
-        channels=[build_channel_state(channel) for channel in verdict.channels],
-        not_compared=list(verdict.not_compared),
         bands={
             name: _draw_bands(other, name, tolerance, begins[1], verdict.ticks, points)
             for name, tolerance in (comparison.tolerances if points else {}).items()
@@ -102,6 +96,8 @@ def _draw_bands(
     thinned = decimate(np.stack(bounds, axis=-1), points)
     time_s = ((run.first_tick + begin + thinned.rows) * period).tolist()
     return {
-        lane: Band.build(time_s, thinned.values[:, number])
-        for number, lane in enumerate(run.header.lanes)
+        lane: Band(time_s=time_s, low=low, high=high)
+        for lane, (low, high) in zip(
+            run.header.lanes, thinned.values.transpose(1, 2, 0).tolist(), strict=True
+        )
     }

@@ -79,17 +79,6 @@ class MotorState(BaseModel):
     )
 
 
-class EnduranceState(BaseModel):
-    """A motor that a load overheats: from when on heat limits its torque."""
-
-    motor: Literal["motor1", "motor2"]
-    torque_nm: float = Field(description="Torque demanded under the load, rms")
-    lasting_torque_nm: float = Field(description="Continuous rating")
-    seconds: float = Field(
-        description="Time from the load's onset until heat limits the torque, starting cold"
-    )
-
-
 class BenchState(BaseModel):
     """The current state of a bench."""
 

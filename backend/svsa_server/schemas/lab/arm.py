@@ -28,20 +28,6 @@ class NamedArmState(BaseModel):
     links: ArmParameters
 
 
-def list_arms() -> list[NamedArmState]:
-    """List the arms of the lab."""
-    return [
-        NamedArmState(
-            name=name,
-            title=arm.title,
-            description=arm.description,
-            actuator=arm.actuator,
-            links=arm.links,
-        )
-        for name, arm in ARMS.items()
-    ]
-
-
 class FromArm(Checked):
     """An arm's default experiment, running: both joints follow a sine, or the tip a path."""
 

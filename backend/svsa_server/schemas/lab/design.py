@@ -4,9 +4,11 @@ from typing import Literal
 
 from pydantic import BaseModel, Field
 
+from svsa.analysis.design.prediction import Reason, Verdict
 from svsa.control.observers.disturbance import ObserverBandwidth
-from svsa.inputs.checked import Checked, quantity
-from svsa_server.schemas.lab.gain import GainsRequest, Root
+from svsa.inputs.checked import Checked, FiniteOrNull, quantity
+from svsa_server.schemas.answer import Answer, TextOrNull
+from svsa_server.schemas.lab.gain import ComplexRoot, GainsRequest
 
 
 class TriedDesign(Checked):
@@ -24,50 +26,48 @@ class PredictionRequest(TriedDesign):
     kind: Literal["prediction"] = quantity("", "Steady-state errors, noise, torques, a verdict")
 
 
-class ReasonState(BaseModel):
-    """One finding about the design."""
-
-    kind: Literal["note", "warn", "refuse"]
-    code: str
-    message: str
-
-
-class SteadyStateErrorState(BaseModel):
+class SteadyStateErrorState(Answer):
     """Steady-state errors under the 3 kg (2 N·m on link and motors)."""
 
-    position_error_rad: float
-    stiffness_error_nm_per_rad: float
-    deflection_rad: float
+    position_error_rad: float = Field(validation_alias="position")
+    stiffness_error_nm_per_rad: float = Field(validation_alias="stiffness")
+    deflection_rad: float = Field(validation_alias="deflection")
 
 
 class LoopNoiseState(BaseModel):
     """Noise in the discrete loop from encoder counts; null if it is unstable."""
 
-    torque1_rms_nm: float | None
-    torque2_rms_nm: float | None
-    largest_pole: float = Field(description="Largest |z| of the loop's poles; stable below 1")
+    torque1_rms_nm: FiniteOrNull = Field(validation_alias="u1")
+    torque2_rms_nm: FiniteOrNull = Field(validation_alias="u2")
+    largest_pole: float = Field(
+        validation_alias="radius", description="Largest |z| of the loop's poles; stable below 1"
+    )
     encoders: Literal["session", "rig"] = Field(
         description="Encoders used: the session's, or those of the paper's rig if it has none"
     )
 
 
-class TorqueDemandState(BaseModel):
+class TorqueDemandState(Answer):
     """Torques that the load demands, from a simulation of the session's motion."""
 
-    peak_torque1_nm: float = Field(description="Peak demand without limits")
-    peak_torque2_nm: float = Field(description="Peak demand without limits")
+    peak_torque1_nm: float = Field(
+        validation_alias="peak1_nm", description="Peak demand without limits"
+    )
+    peak_torque2_nm: float = Field(
+        validation_alias="peak2_nm", description="Peak demand without limits"
+    )
     limited_s: float = Field(description="Time with a torque at its limit")
-    fault: str | None = Field(description="Fault that the load would cause, or empty")
+    fault: TextOrNull = Field(description="Fault that the load would cause, or empty")
 
 
 class Prediction(BaseModel):
     """The prediction; numbers are null for rejected gains."""
 
-    verdict: Literal["ok", "warn", "refuse"]
-    reasons: list[ReasonState]
+    verdict: Verdict
+    reasons: tuple[Reason, ...]
     stiffness_nm_per_rad: float = Field(description="Stiffness of the prediction")
-    position_roots_rad_per_s: list[Root]
-    stiffness_roots_rad_per_s: list[Root]
+    position_roots_rad_per_s: list[ComplexRoot]
+    stiffness_roots_rad_per_s: list[ComplexRoot]
     law: str = Field(description="Title of the law")
     steady: SteadyStateErrorState | None = Field(
         description="Steady-state error of the law, simulated without quantisation, noise and "

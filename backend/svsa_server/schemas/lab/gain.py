@@ -3,7 +3,8 @@
 from dataclasses import replace
 from typing import Annotated, Any, Self
 
-from pydantic import BaseModel, Field, model_validator
+from pydantic import BaseModel, Field, PlainSerializer, model_validator
+from typing_extensions import TypedDict
 
 from svsa.control.gains import FASTEST_POLE_RAD_PER_S, Gains, compute_coefficients
 from svsa.errors import ParameterError, Violation
@@ -80,17 +81,25 @@ def _read_pole(pole: float | tuple[float, float]) -> complex:
     return complex(*pole) if isinstance(pole, tuple) else complex(pole)
 
 
-class Root(BaseModel):
+class Root(TypedDict):
     """A root of Eq 25, rad/s."""
 
     re: float
     im: float
 
 
+def _split_root(root: complex) -> Root:
+    return {"re": root.real, "im": root.imag}
+
+
+ComplexRoot = Annotated[complex, PlainSerializer(_split_root)]
+"""A complex number, which is a `Root` in JSON."""
+
+
 class GainsState(BaseModel):
     """The gains with their roots."""
 
-    position_coefficients: list[float]
-    stiffness_coefficients: list[float]
-    position_roots_rad_per_s: list[Root]
-    stiffness_roots_rad_per_s: list[Root]
+    position_coefficients: tuple[float, ...]
+    stiffness_coefficients: tuple[float, ...]
+    position_roots_rad_per_s: list[ComplexRoot]
+    stiffness_roots_rad_per_s: list[ComplexRoot]

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 
 from pydantic import BaseModel, Field
 
+from svsa.actuators.faults import FAULTS
 from svsa.inputs.checked import Checked
 from svsa.runs.paper import FIGURES
 from svsa.simulation.plant.effects import EFFECTS, PRESETS, Effects, describe_preset
@@ -12,7 +13,7 @@ from svsa.simulation.plant.loads import LOADS
 from svsa.simulation.reference.kinds import POSITIONS, STIFFNESSES
 from svsa_server.schemas.lab.lab import FigureState
 from svsa_server.schemas.lab.parameter import ParameterState, describe_parameter, list_parameters
-from svsa_server.schemas.runs.fault import FaultKindState, list_faults
+from svsa_server.schemas.runs.fault import FaultKindState
 
 
 class EffectState(BaseModel):
@@ -79,17 +80,8 @@ def list_kinds() -> Kinds:
         stiffness=[
             _describe_kind(reference, reference.first, reference.hint) for reference in STIFFNESSES
         ],
-        figures=[
-            FigureState(
-                key=figure.key,
-                title=figure.title,
-                position=figure.position,
-                stiffness=figure.stiffness,
-                claim=figure.claim,
-            )
-            for figure in FIGURES.values()
-        ],
-        faults=list_faults(),
+        figures=[FigureState.model_validate(figure) for figure in FIGURES.values()],
+        faults=[FaultKindState(code=code, **kind._asdict()) for code, kind in FAULTS.items()],
     )
 
 

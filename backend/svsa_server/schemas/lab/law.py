@@ -1,6 +1,6 @@
 """Answers about laws: the descriptions that forms and legends need."""
 
-from typing import Annotated
+from typing import Annotated, Any
 
 from pydantic import AfterValidator, BaseModel, Field
 
@@ -58,29 +58,13 @@ def _describe(name: str, line_style: int) -> LawState:
     try:
         law, is_own = get_law(name), has_own_parameters(name)
     except LawError as error:
-        return LawState(
-            name=name,
-            title=name,
-            line_style=line_style,
-            summary="",
-            equation="",
-            source="",
-            notes="",
-            estimate="none",
-            takes_gains=False,
-            parameters=[],
-            problem=str(error),
-        )
-    return LawState(
-        name=name,
-        title=law.title,
-        line_style=line_style,
-        summary=law.summary,
-        equation=law.equation,
-        source=law.source,
-        notes=get_notes(name),
-        estimate=law.estimate,
-        takes_gains=not is_own,
-        parameters=list_parameters(law.parameters) if is_own else [],
-        problem=None,
-    )
+        own: dict[str, Any] = dict.fromkeys(("summary", "equation", "source", "notes"), "")
+        own |= {"title": name, "estimate": "none", "takes_gains": False, "parameters": []}
+        return LawState(**own, name=name, line_style=line_style, problem=str(error))
+    own = vars(law) | {
+        "line_style": line_style,
+        "notes": get_notes(name),
+        "takes_gains": not is_own,
+        "parameters": list_parameters(law.parameters) if is_own else [],
+    }
+    return LawState(**own, problem=None)

@@ -9,6 +9,7 @@ from svsa.inputs.checked import Checked, Flag, Number, Whole, quantity
 from svsa.runs.configuration import MAX_LANES, Configuration, Design
 from svsa.runs.events import Event
 from svsa.runs.paper import get_figure
+from svsa.runs.records.header import BranchPoint
 from svsa.simulation.plant.effects import IDEAL, Effects
 from svsa.simulation.plant.loads import Load
 from svsa_server.schemas.hardware.bench import BenchState
@@ -114,13 +115,6 @@ class SessionProgress(BaseModel):
     bench: BenchState | None = Field(description="Null for a simulated session")
 
 
-class BranchState(BaseModel):
-    """The recorded run that a session continues, and the tick at which it branched."""
-
-    run_id: str
-    tick: int
-
-
 class SessionState(SessionProgress):
     """A session: its time, its metrics and its settings."""
 
@@ -133,7 +127,7 @@ class SessionState(SessionProgress):
     last_command: CommandState | None = Field(
         description="Newest change of a setting or load of this run; null before the first"
     )
-    branch_of: BranchState | None = Field(description="Source of a branch; null otherwise")
+    branch_of: BranchPoint | None = Field(description="Source of a branch; null otherwise")
     note: str = Field(
         description="Note given when the session was opened, such as why a law of the ranking"
         " has no comparison; empty without one"

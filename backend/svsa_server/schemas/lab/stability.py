@@ -5,10 +5,13 @@ from typing import Literal
 from pydantic import BaseModel, Field
 
 from svsa.analysis.design.attraction import Slice
+from svsa.analysis.design.margins import GainRange
+from svsa.analysis.design.robustness import StableRange
 from svsa.control.installed import InstalledLaw
-from svsa.inputs.checked import Number, Whole, quantity
+from svsa.inputs.checked import FiniteOrNull, Number, Whole, quantity
+from svsa_server.schemas.answer import TextOrNull
 from svsa_server.schemas.lab.design import TriedDesign
-from svsa_server.schemas.lab.gain import Root
+from svsa_server.schemas.lab.gain import ComplexRoot
 
 MAX_STARTS = 61
 MAX_AT_ONCE = 400
@@ -63,7 +66,7 @@ class LoadResponseState(BaseModel):
     time_s: list[float]
     position_error_rad: list[float]
     peak_error_rad: float
-    fault: str | None = Field(description="Why the run ended early")
+    fault: TextOrNull = Field(description="Why the run ended early")
 
 
 class FrequencyResponseState(BaseModel):
@@ -89,41 +92,27 @@ class ResponseState(BaseModel):
     )
 
 
-class StableRangeState(BaseModel):
-    """True over nominal value of one parameter for which the loop is Hurwitz."""
-
-    parameter: str
-    symbol: str
-    low: float | None = Field(
-        description="Lower end of the stable range; null if stable down to least_ratio"
-    )
-    high: float | None = Field(
-        description="Upper end of the stable range; null if stable up to greatest_ratio"
-    )
-    present: float
-
-
 class StabilityState(BaseModel):
     """Theorem 1 for a design about rest."""
 
     law: str
     stiffness_nm_per_rad: float
-    poles_rad_per_s: list[Root] = Field(
+    poles_rad_per_s: list[ComplexRoot] = Field(
         description="Poles of the closed loop in continuous time, with true plant and observer"
     )
     slowest_rad_per_s: float = Field(description="Largest real part; stable below 0")
     least_damping: float
     largest_pole: float = Field(description="Largest |z| of the sampled loop; stable below 1")
-    ranges: list[StableRangeState] = Field(
+    ranges: list[StableRange] = Field(
         description="Stable parameter ranges; empty if the loop is unstable"
     )
     least_ratio: float
     greatest_ratio: float
-    ramp_gain_rad_s_per_nm: float | None = Field(
+    ramp_gain_rad_s_per_nm: FiniteOrNull = Field(
         description="Error per unit load rate under a ramp; null if a constant torque causes an"
         " error"
     )
-    l1_gain_rad_s_per_nm: float | None = Field(
+    l1_gain_rad_s_per_nm: FiniteOrNull = Field(
         description="L1 gain of the linear loop from ẇ2 to e: the largest error that any w2 of a"
         " bounded rate causes, per rate, for small motions; not an ISS gain of the nonlinear loop"
     )
@@ -135,17 +124,6 @@ class StabilityState(BaseModel):
     )
     encoders: Literal["session", "rig"] = Field(
         description="Sensing that bounds the observer: the session's, or that of the paper's rig"
-    )
-
-
-class GainRangeState(BaseModel):
-    """Factors on one torque for which the loop stays stable, with the other torque unchanged."""
-
-    low: float | None = Field(
-        description="Lower end of the stable range; null if stable down to 0.01"
-    )
-    high: float | None = Field(
-        description="Upper end of the stable range; null if stable up to 100"
     )
 
 
@@ -167,8 +145,8 @@ class MarginsState(BaseModel):
         description="Additional delay of both torques, unknown to the observer, that "
         "destabilises the loop; null if none does"
     )
-    torque1_gain: GainRangeState | None
-    torque2_gain: GainRangeState | None
+    torque1_gain: GainRange | None
+    torque2_gain: GainRange | None
     joint_error: float | None = Field(
         description="Smallest joint error √(Σ error²) of M, B1, B2 and Ks found to destabilise the "
         "loop; null if none was found"

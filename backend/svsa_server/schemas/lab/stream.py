@@ -20,6 +20,7 @@ from svsa.runs.session.frame import (
     FieldType,
 )
 from svsa_server.problems import ShownText
+from svsa_server.schemas.answer import Answer
 from svsa_server.schemas.lab.session import SessionProgress, SessionState
 
 BATCH_BYTES = 12 * 1024
@@ -41,7 +42,7 @@ class StreamRequest(Checked):
     )
 
 
-class StreamChannel(BaseModel):
+class StreamChannel(Answer):
     """A column of the batches."""
 
     name: ChannelName

@@ -4,7 +4,7 @@ from typing import Any, Literal, Self
 
 from pydantic import BaseModel, Field
 
-from svsa.actuators.faults import FAULTS, FaultKind, advise, label_fault
+from svsa.actuators.faults import advise, label_fault
 from svsa.errors import Fault
 from svsa_server.problems import ShownText
 
@@ -54,11 +54,6 @@ class SessionFault(RunFault):
     advice: str | None = Field(description="What to check or try next; null for an unknown code")
 
 
-def list_faults() -> list[FaultKindState]:
-    """List every kind of fault with its description."""
-    return [_build_kind(code, kind) for code, kind in FAULTS.items()]
-
-
 def build_session_fault(fault: Fault) -> SessionFault:
     """Build the answer for a session's fault."""
     return SessionFault.report(
@@ -67,16 +62,4 @@ def build_session_fault(fault: Fault) -> SessionFault:
         tick=fault.tick,
         values=fault.values,
         advice=advise(fault.code, fault.values),
-    )
-
-
-def _build_kind(code: str, kind: FaultKind) -> FaultKindState:
-    return FaultKindState(
-        code=code,
-        number=kind.number,
-        label=kind.label,
-        cause=kind.cause,
-        advice=kind.advice,
-        where=kind.where,
-        within_s=kind.within_s,
     )

@@ -10,6 +10,7 @@ from svsa.inputs.checked import Checked, quantity
 from svsa.runs.command import Command
 from svsa.runs.metrics import Metrics
 from svsa.runs.records.catalogue.entry import RunState
+from svsa.runs.records.difference import Difference
 from svsa.runs.records.header import (
     LONGEST_NAME,
     LONGEST_NOTES,
@@ -101,8 +102,6 @@ class RunSummary(BaseModel):
 
 class IndexProgress(BaseModel):
     """Progress of updating the list of runs after a start."""
-
-    model_config = ConfigDict(from_attributes=True)
 
     done: int = Field(description="Number of runs read")
     total: int = Field(description="Number of runs to read; 0 until it is known")
@@ -202,23 +201,12 @@ class RunSamples(BaseModel):
     )
 
 
-class SettingDifference(BaseModel):
-    """A setting that differs between runs."""
-
-    group: str
-    name: str
-    unit: str = Field(description="SI unit of numeric values")
-    values: list[str | float | bool | None] = Field(
-        description="Value in each run; null if a run has no such setting"
-    )
-
-
 class RunDifference(BaseModel):
     """The settings that differ between runs; all others are equal."""
 
     runs: list[str] = Field(description="Ids of the runs, in the order of the values")
     titles: list[str]
-    differences: list[SettingDifference]
+    differences: tuple[Difference, ...]
 
 
 class RecordingRequest(Checked):

@@ -14,7 +14,7 @@ export type Margins = Schemas["MarginsState"];
 type RegionRequest = Omit<Partial<Schemas["RegionRequest"]>, "kind">;
 export type Region = Schemas["RegionState"];
 export type StartOutcome = Schemas["StartOutcomeState"];
-export type Endurance = Schemas["EnduranceState"];
+export type Endurance = Schemas["Endurance"];
 type PredictRequest = Omit<Partial<Schemas["PredictionRequest"]>, "kind">;
 
 const analyze = (designRequest: object) =>
