@@ -139,6 +139,7 @@ def test_actuator_without_stiffness_motor_has_no_variation():
     assert found.elastic_energy_max_j == pytest.approx(0.5 * 60.0 * 0.5**2)
 
 
+@pytest.mark.exhaustive
 @pytest.mark.long
 def test_command_prints_json_and_draws_a_page(tmp_path):
     page = tmp_path / "page.pdf"

@@ -131,6 +131,7 @@ def test_closed_plant_makes_no_torque_and_has_no_mode(stand: Stand) -> None:
     assert not any(stand.describe()[2]), "no mode, or stopped"
 
 
+@pytest.mark.exhaustive
 def test_plant_follows_a_second_of_figure_4a(stand: Stand) -> None:
     """Through encoders, currents and the wire within half a degree, and 1 N·m/rad at the end."""
     stand.start(by_hand=False)

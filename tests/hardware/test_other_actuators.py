@@ -98,6 +98,7 @@ def test_ndobc_holds_the_load_on_the_emulated_bench(name: str, tmp_path: Path) -
     assert np.max(wrong / read_settled(compensated, "stiffness_reference_nm_per_rad")) < 0.05
 
 
+@pytest.mark.exhaustive
 def test_run_over_sockets_gives_the_same_samples_bit_for_bit(tmp_path: Path) -> None:
     """`svsa emulator --actuator qbmove` as a process of its own, over python-can."""
     over_wire, here = (

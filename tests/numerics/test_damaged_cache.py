@@ -244,6 +244,7 @@ def test_damaged_text_of_an_energy_is_written_again(
     assert len(caplog.messages) == 1
 
 
+@pytest.mark.exhaustive
 def test_truncated_file_in_a_command_is_not_only_aborted() -> None:
     code = (
         "import sys; from svsa import cli\n"

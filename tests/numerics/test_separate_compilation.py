@@ -42,6 +42,7 @@ def run_program(cache: Path, child: str = "", before: tuple[str, ...] = ()) -> l
     return ran.stdout.splitlines()
 
 
+@pytest.mark.exhaustive
 @pytest.mark.long
 def test_function_is_compiled_in_a_child_and_loaded(tmp_path):
     assert run_program(tmp_path) == ["compiled here: False"]

@@ -75,6 +75,7 @@ def test_installed_law_is_found_and_controls(installed_run):
     assert max(map(math.degrees, (fast, slow))) < 2.0
 
 
+@pytest.mark.exhaustive
 def test_record_opens_without_the_package_and_names_the_missing_law(installed_run):
     record = open_record(installed_run[1])
     assert "motor_pd" not in list_law_names()

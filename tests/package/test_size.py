@@ -59,6 +59,7 @@ def test_excess_names_folder_lines_and_remedy():
     assert "29-size.md" in message
 
 
+@pytest.mark.exhaustive
 def test_every_file_is_in_a_folder_of_the_decision():
     ceilings = list_ceilings(DECISION.read_text(encoding="utf-8"))
     assert all(count.total() for count in count_folders(ceilings).values())

@@ -132,6 +132,7 @@ def test_law_keeps_its_memory_in_each_run() -> None:
     assert len(np.unique(summaries["q"])) == len(shares)
 
 
+@pytest.mark.exhaustive
 def test_ended_run_keeps_its_last_state_and_other_runs_continue() -> None:
     """Each at its own tick; a completed run has no fault of its neighbours."""
     masses = np.linspace(0.6, 1.4, 8)

@@ -207,6 +207,7 @@ def test_address_without_a_scheduler_is_reported(cluster, monkeypatch):
         open_cluster(worker, 0).__enter__()
 
 
+@pytest.mark.exhaustive
 @pytest.mark.long
 def test_scheduler_without_workers_reports_how_to_start_one(monkeypatch):
     monkeypatch.setattr(dask, "WORKERS_S", 0.2)

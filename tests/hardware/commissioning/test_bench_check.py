@@ -94,6 +94,7 @@ def test_latency_is_that_of_bus_lag_and_feedback_period(moved):
     assert median == pytest.approx(0.13 + 0.35 + 0.5 + 0.13, abs=0.5)
 
 
+@pytest.mark.exhaustive
 def test_pulse_during_a_scheduling_delay_is_repeated(path, bus):
     """A delay of 30 ms exceeds the pulse of 27 ms: it is over before it is measured."""
     slept = []
@@ -109,6 +110,7 @@ def test_pulse_during_a_scheduling_delay_is_repeated(path, bus):
     assert steps["motor2: motion"].result is Result.OK
 
 
+@pytest.mark.exhaustive
 def test_repeated_scheduling_delays_are_reported_as_a_problem_of_the_computer(path, bus):
     def sleep(message):
         if find_current(message, "motor2"):

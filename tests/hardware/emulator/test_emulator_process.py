@@ -191,6 +191,7 @@ def test_time_against_the_clock_advances_automatically():
             assert time.monotonic() < deadline
 
 
+@pytest.mark.exhaustive
 def test_time_in_lockstep_advances_without_a_loop_until_one_connects():
     with start_emulator(True, 120.0, "--alone-s", "0.2") as running:
         loop = Wire(running.port)
@@ -206,6 +207,7 @@ def test_time_in_lockstep_advances_without_a_loop_until_one_connects():
         loop.close()
 
 
+@pytest.mark.exhaustive
 def test_emulator_ends_on_request_and_when_idle():
     with start_emulator(lockstep=True) as running:
         process = running.process

@@ -37,6 +37,7 @@ def test_former_command_has_its_present_kind() -> None:
     assert [lane.law for lane in first.argument] == ["fl"]
 
 
+@pytest.mark.exhaustive
 @pytest.mark.long
 def test_former_bench_record_follows_from_its_measurements() -> None:
     start = (RECORDS / "bench" / "bench-start.json").read_text(encoding="utf-8")

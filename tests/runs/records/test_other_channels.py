@@ -123,6 +123,7 @@ def test_record_with_other_channels_is_exported(
     assert (tmp_path / f"run.{kind}").stat().st_size > 1000
 
 
+@pytest.mark.exhaustive
 @pytest.mark.long
 def test_lab_plots_measures_and_verifies_an_older_record(tmp_path: Path) -> None:
     name = open_record(RECORDS / "comparisons").header.run_id

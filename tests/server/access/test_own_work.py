@@ -82,6 +82,7 @@ def list_jobs(browser: httpx.Client, kind: str = "tuning") -> list[str]:
     return [job["id"] for job in listed["jobs"]]
 
 
+@pytest.mark.exhaustive
 def test_stored_study_is_listed_for_its_creator_and_the_instructor(tmp_path: Path) -> None:
     with run_class(tmp_path) as room:
         ada, bob, instructor = room.join("Ada"), room.join("Bob"), room.log_in()

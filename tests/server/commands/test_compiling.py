@@ -88,6 +88,7 @@ def test_server_that_has_compiled_is_as_small_as_one_that_has_loaded_its_code(tm
     assert sizes_mb[0] - sizes_mb[1] < 40.0
 
 
+@pytest.mark.exhaustive
 @pytest.mark.parametrize("kind", exhaust(["first law", "other laws", "request"], ["first law"]))
 def test_compiling_process_ends_with_a_killed_server(kind, tmp_path):
     ready = tmp_path / "pid"

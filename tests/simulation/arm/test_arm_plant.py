@@ -25,6 +25,7 @@ def test_energy_is_kept_without_damping_and_its_drift_is_of_fourth_order():
     assert np.polyfit(np.log(periods), np.log(drifts), 1)[0] > 3.8, drifts
 
 
+@pytest.mark.exhaustive
 @pytest.mark.long
 def test_damping_loses_the_power_of_the_velocities():
     """Ė = −Σ (D q̇² + D1 θ̇1² + D2 θ̇2²)."""
