@@ -123,7 +123,7 @@ def build_queue(lease: ControlLease) -> QueueState | None:
     if not isinstance(lease, ControlQueue):
         return None
     return QueueState(
-        waiting=[WaitingState(id=user.client, name=user.name) for user in lease.waiting],
+        waiting=[WaitingState.model_validate(user) for user in lease.waiting],
         place=lease.find_place(asking.get()),
         locked=lease.is_locked,
         idle_s=lease.idle_s,

@@ -58,7 +58,7 @@ async def read_class(request: Request, person: NamedPerson) -> ClassState:
     ordered = sorted(here.values(), key=lambda member: (member.name.casefold(), member.id))
     return ClassState(
         people=[_build_person(member, seen) for member in ordered],
-        removed=[_build_member(member) for member in removed],
+        removed=[MemberState.model_validate(member) for member in removed],
         sessions=[
             _build_session(hosted, people.find(hosted.owner)) for hosted in seen if hosted.owner
         ],
@@ -82,7 +82,7 @@ async def change_person(
     if patch.removed:
         for hosted in _find_laboratory(request).sessions.values():
             hosted.release_lease_of(changed.id)
-    return _build_member(changed)
+    return MemberState.model_validate(changed)
 
 
 @router.get("/people")
@@ -90,7 +90,7 @@ async def change_person(
 async def list_members(request: Request) -> list[Member]:
     """List every member by name and id, also those who are not active or were removed."""
     return [
-        Member(**_build_member(membership.person).model_dump(), removed=membership.is_ended)
+        Member(**membership.person._asdict(), removed=membership.is_ended)
         for membership in find_class(request).members.list_all()
     ]
 
@@ -180,13 +180,9 @@ def _find_laboratory(request: Request) -> Laboratory:
     return request.app.state.laboratory
 
 
-def _build_member(person: Person) -> MemberState:
-    return MemberState(id=person.id, name=person.name, role=person.role.word)
-
-
 def _build_person(person: Person, seen: list[HostedSession]) -> PersonState:
     sees = [hosted.session.name for hosted in seen if person.id in hosted.list_viewers()]
-    return PersonState(**_build_member(person).model_dump(), sees=sees)
+    return PersonState(**person._asdict(), sees=sees)
 
 
 def _build_session(hosted: HostedSession, owner: Person | None) -> ClassSession:

@@ -23,7 +23,6 @@ from svsa_server.schemas.evaluation.job import JobState, describe_job
 from svsa_server.schemas.teaching.grades import (
     GradesState,
     GradingRequest,
-    describe_exercises,
     describe_students,
 )
 
@@ -72,7 +71,7 @@ async def read_grades(
         return HTMLResponse(write_page(list(list_grades(submitted))))
     return GradesState(
         not_isolated=await asyncio.to_thread(find_isolation_problem),
-        exercises=describe_exercises(list(request.app.state.course.values())),
+        exercises=list(request.app.state.course.values()),
         students=describe_students(submitted),
     )
 

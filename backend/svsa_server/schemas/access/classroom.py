@@ -1,17 +1,27 @@
 """Requests and answers about a class: members, sessions, code, audit log."""
 
-from pydantic import BaseModel, Field
+from typing import Annotated
+
+from pydantic import BaseModel, BeforeValidator, Field
 
 from svsa.inputs.checked import Checked, Flag, quantity
-from svsa_server.access.roles import RoleName
+from svsa_server.access.roles import Role, RoleName
+from svsa_server.schemas.response import ResponseModel
 
 
-class MemberState(BaseModel):
+def _name_role(role: Role | RoleName) -> RoleName:
+    return role.word if isinstance(role, Role) else role
+
+
+NamedRole = Annotated[RoleName, BeforeValidator(_name_role)]
+
+
+class MemberState(ResponseModel):
     """A person who has joined."""
 
     id: str
     name: str
-    role: RoleName
+    role: NamedRole
 
 
 class Member(MemberState):

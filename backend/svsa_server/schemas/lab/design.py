@@ -7,8 +7,8 @@ from pydantic import BaseModel, Field
 from svsa.analysis.design.prediction import Reason, Verdict
 from svsa.control.observers.disturbance import ObserverBandwidth
 from svsa.inputs.checked import Checked, FiniteOrNull, quantity
-from svsa_server.schemas.answer import Answer, TextOrNull
 from svsa_server.schemas.lab.gain import ComplexRoot, GainsRequest
+from svsa_server.schemas.response import ResponseModel, TextOrNull
 
 
 class TriedDesign(Checked):
@@ -26,7 +26,7 @@ class PredictionRequest(TriedDesign):
     kind: Literal["prediction"] = quantity("", "Steady-state errors, noise, torques, a verdict")
 
 
-class SteadyStateErrorState(Answer):
+class SteadyStateErrorState(ResponseModel):
     """Steady-state errors under the 3 kg (2 N·m on link and motors)."""
 
     position_error_rad: float = Field(validation_alias="position")
@@ -47,7 +47,7 @@ class LoopNoiseState(BaseModel):
     )
 
 
-class TorqueDemandState(Answer):
+class TorqueDemandState(ResponseModel):
     """Torques that the load demands, from a simulation of the session's motion."""
 
     peak_torque1_nm: float = Field(

@@ -6,10 +6,10 @@ from pydantic import BaseModel, Field
 
 from svsa.simulation.reference.kinds import PositionReference, StiffnessReference
 from svsa_server.problems import ShownText
-from svsa_server.schemas.answer import Answer
+from svsa_server.schemas.response import ResponseModel
 
 
-class FigureState(Answer):
+class FigureState(ResponseModel):
     """A figure of the paper as data."""
 
     key: str

@@ -6,6 +6,7 @@ from pydantic import AfterValidator, BaseModel, Field
 
 from svsa.inputs.checked import Checked, Flag, quantity
 from svsa_server.leases.lease import LONGEST_NAME, READABLE, check_printable
+from svsa_server.schemas.response import ResponseModel
 
 
 class ControlRequest(Checked):
@@ -33,10 +34,10 @@ class LockRequest(Checked):
     locked: Flag = quantity("", "Whether only the instructor can take control")
 
 
-class WaitingState(BaseModel):
+class WaitingState(ResponseModel):
     """A user in the queue for control."""
 
-    id: str
+    id: str = Field(validation_alias="client")
     name: str
 
 

@@ -9,9 +9,9 @@ from svsa.analysis.design.margins import GainRange
 from svsa.analysis.design.robustness import StableRange
 from svsa.control.installed import InstalledLaw
 from svsa.inputs.checked import FiniteOrNull, Number, Whole, quantity
-from svsa_server.schemas.answer import TextOrNull
 from svsa_server.schemas.lab.design import TriedDesign
 from svsa_server.schemas.lab.gain import ComplexRoot
+from svsa_server.schemas.response import TextOrNull
 
 MAX_STARTS = 61
 MAX_AT_ONCE = 400

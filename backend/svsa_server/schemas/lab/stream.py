@@ -20,8 +20,8 @@ from svsa.runs.session.frame import (
     FieldType,
 )
 from svsa_server.problems import ShownText
-from svsa_server.schemas.answer import Answer
 from svsa_server.schemas.lab.session import SessionProgress, SessionState
+from svsa_server.schemas.response import ResponseModel
 
 BATCH_BYTES = 12 * 1024
 """Maximum size of a batch with more than one sample, about 0.6 s at 20 kB/s."""
@@ -42,7 +42,7 @@ class StreamRequest(Checked):
     )
 
 
-class StreamChannel(Answer):
+class StreamChannel(ResponseModel):
     """A column of the batches."""
 
     name: ChannelName

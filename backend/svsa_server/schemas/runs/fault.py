@@ -36,13 +36,7 @@ class RunFault(BaseModel):
     @classmethod
     def report(cls, fault: Fault, **more: Any) -> Self:
         """Build the answer for a fault; `more` are the fields of a subclass."""
-        return cls(
-            code=fault.code,
-            label=label_fault(fault.code),
-            message=fault.message,
-            time_s=fault.time_s,
-            **more,
-        )
+        return cls(**vars(fault), label=label_fault(fault.code), **more)
 
 
 class SessionFault(RunFault):
@@ -56,10 +50,4 @@ class SessionFault(RunFault):
 
 def build_session_fault(fault: Fault) -> SessionFault:
     """Build the answer for a session's fault."""
-    return SessionFault.report(
-        fault,
-        lane=fault.lane,
-        tick=fault.tick,
-        values=fault.values,
-        advice=advise(fault.code, fault.values),
-    )
+    return SessionFault.report(fault, advice=advise(fault.code, fault.values))

@@ -1,6 +1,6 @@
 """Requests and answers about the course: exercises, progress, judgements."""
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, Field
 
@@ -13,6 +13,7 @@ from svsa.teaching.course.text import render_text
 from svsa.teaching.grading.law_points import POINTS
 from svsa.teaching.submission import LONGEST_NAME, Answer, LawText, SavedLaw, StepName
 from svsa_server.access.owned import Owned
+from svsa_server.schemas.response import ResponseModel
 
 
 class AnswerRequest(Checked):
@@ -47,7 +48,7 @@ class CourseLawRequest(Checked):
     text: LawText = quantity("", "Text of a law's Python file")
 
 
-class OptionState(BaseModel):
+class OptionState(ResponseModel):
     """An answer that can be selected."""
 
     name: str
@@ -136,21 +137,13 @@ class CourseState(BaseModel):
 
 def describe_summary(exercise: Exercise, progress: ExerciseProgress) -> ExerciseSummary:
     """Describe an exercise in the list."""
-    return ExerciseSummary(
-        name=exercise.name,
-        number=exercise.number,
-        title=exercise.title,
-        goal=exercise.goal,
-        minutes=exercise.minutes,
-        max_points=exercise.max_points,
-        law_points=sum(POINTS.values()) if exercise.takes_law else 0.0,
-        steps=len(exercise.steps),
-        done=len(find_done(exercise, progress)),
-        at=progress.at,
-        submitted_at=progress.submitted_at,
-        points=progress.points,
-        changes=progress.changes,
-    )
+    own: dict[str, Any] = {
+        "max_points": exercise.max_points,
+        "law_points": sum(POINTS.values()) if exercise.takes_law else 0.0,
+        "steps": len(exercise.steps),
+        "done": len(find_done(exercise, progress)),
+    }
+    return ExerciseSummary(**dict(exercise) | dict(progress) | own)
 
 
 def describe_exercise(exercise: Exercise, progress: ExerciseProgress) -> ExerciseState:
@@ -198,9 +191,7 @@ def _describe_step(exercise: Exercise, step: Step, progress: ExerciseProgress) -
             state.bench = _describe_bench(step)
             state.max_points = sum(criterion.points for criterion in step.criteria)
         case Explain():
-            state.options = [
-                OptionState(name=option.name, text=option.text) for option in step.options
-            ]
+            state.options = [OptionState.model_validate(option) for option in step.options]
             state.max_points = step.points
             state.is_final = state.is_final or known.answer is not None
         case SubmitStep():

@@ -3,9 +3,9 @@
 from pydantic import BaseModel, Field
 
 from svsa.inputs.checked import Checked, Flag, quantity
-from svsa.teaching.course.exercise import Exercise
 from svsa.teaching.grading.class_grades import GradedSubmission
 from svsa.teaching.grading.grade import Grade
+from svsa_server.schemas.response import ResponseModel
 
 
 class GradingRequest(Checked):
@@ -14,7 +14,7 @@ class GradingRequest(Checked):
     again: Flag = quantity("", "Grade again submissions that already have a grade", default=False)
 
 
-class GradedSubmissionState(BaseModel):
+class GradedSubmissionState(ResponseModel):
     """A student's submission of an exercise."""
 
     exercise: str
@@ -30,7 +30,7 @@ class StudentState(BaseModel):
     submissions: list[GradedSubmissionState]
 
 
-class GradedExercise(BaseModel):
+class GradedExercise(ResponseModel):
     """An exercise of the grade table."""
 
     name: str
@@ -48,13 +48,6 @@ class GradesState(BaseModel):
     students: list[StudentState]
 
 
-def describe_submission(submission: GradedSubmission) -> GradedSubmissionState:
-    """Describe a submission."""
-    return GradedSubmissionState(
-        exercise=submission.exercise, grade=submission.grade, problem=submission.problem
-    )
-
-
 def describe_students(submitted: list[GradedSubmission]) -> list[StudentState]:
     """Group submissions by student, each under the name of the last submission."""
     students: dict[str, StudentState] = {}
@@ -63,13 +56,5 @@ def describe_students(submitted: list[GradedSubmission]) -> list[StudentState]:
             submission.person,
             StudentState(person=submission.person, name=submission.student, submissions=[]),
         )
-        known.submissions.append(describe_submission(submission))
+        known.submissions.append(GradedSubmissionState.model_validate(submission))
     return list(students.values())
-
-
-def describe_exercises(exercises: list[Exercise]) -> list[GradedExercise]:
-    """List the exercises in their order."""
-    return [
-        GradedExercise(name=exercise.name, number=exercise.number, title=exercise.title)
-        for exercise in exercises
-    ]

@@ -8,7 +8,7 @@ TextOrNull = Annotated[str | None, BeforeValidator(lambda text: text or None)]
 """A text of the library; an empty one is null."""
 
 
-class Answer(BaseModel):
+class ResponseModel(BaseModel):
     """An answer. A field is read from the attribute or property of its name.
 
     A route, or a field of this type, may therefore get an object of the library directly.
