@@ -1,12 +1,11 @@
 """`svsa compare`: compare a recorded run with a reference run within tolerances."""
 
 import json
-import math
-from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, cast
+from typing import TYPE_CHECKING, Annotated, cast
 
 import typer
+from pydantic_core import to_jsonable_python
 from rich.console import Console
 from rich.table import Table
 
@@ -64,7 +63,7 @@ def compare(
         _messages.print(f"Error: {error}", style="bold red", highlight=False, markup=False)
         raise typer.Exit(REFUSED) from None
     if as_json:
-        print(json.dumps(_plain(asdict(verdict)), indent=2))
+        print(json.dumps(to_jsonable_python(verdict, inf_nan_mode="null"), indent=2))
     else:
         Console().print(*build_verdict_table(verdict))
     raise typer.Exit(0 if verdict.held else NOT_HELD)
@@ -110,12 +109,3 @@ def build_verdict_table(verdict: "Verdict") -> list[Table | str]:
         lengths = f"not as long: {verdict.own_ticks} and {verdict.other_ticks} ticks"
         conclusion = f"Not held: {lengths}. {conclusion}"
     return [table, f"{conclusion}."]
-
-
-def _plain(value: Any) -> Any:
-    """Replace numbers that are not finite by null, for JSON."""
-    if isinstance(value, dict):
-        return {key: _plain(inner) for key, inner in value.items()}
-    if isinstance(value, list | tuple):
-        return [_plain(inner) for inner in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value

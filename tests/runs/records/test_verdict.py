@@ -4,14 +4,15 @@ import json
 
 import numpy as np
 import pytest
+from pydantic import TypeAdapter
 from typer.testing import CliRunner
 
 from svsa.actuators.signals import CHANNEL_INDEX
 from svsa.cli import app
 from svsa.errors import ParameterError
 from svsa.runs.records.header import RecordError
-from svsa.runs.records.reader import Record, build_record
-from svsa.runs.records.verdict import MAX_OUTSIDE, Tolerance, judge
+from svsa.runs.records.reader import Record, build_record, open_record
+from svsa.runs.records.verdict import MAX_OUTSIDE, Tolerance, Verdict, judge
 from svsa.runs.records.writer import write_record
 from tests.runs.records.records import PERIOD_S, build_header, build_samples
 
@@ -89,6 +90,14 @@ def test_value_missing_in_one_run_is_a_mismatch_and_in_both_a_match():
     assert find(verdict, "lane2", TORQUE).worst_s == pytest.approx(7 * PERIOD_S)
     assert not verdict.held
     assert judge(build(**{TORQUE: unknown}), build(**{TORQUE: unknown}), loose, None).held
+
+
+def test_unknown_values_are_null_in_the_answer_and_in_the_output_of_the_command(tmp_path):
+    folder, samples = tmp_path / "a", np.full_like(build_samples(TICKS), np.nan)
+    write_record(folder, build_header("a"), [], 0, samples)
+    verdict = judge(open_record(folder), open_record(folder), {})
+    for text in (TypeAdapter(Verdict).dump_json(verdict), run(folder, folder, "--json").stdout):
+        assert {(c["value"], c["excess"]) for c in json.loads(text)["channels"]} == {(None, None)}
 
 
 def test_missing_value_does_not_remove_the_band_of_its_neighbours():
