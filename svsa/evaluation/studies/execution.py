@@ -2,15 +2,15 @@
 
 import os
 from collections.abc import Callable, Iterator
-from concurrent.futures import FIRST_COMPLETED, Future, wait
 from concurrent.futures.process import BrokenProcessPool
 from functools import partial
 
+from svsa.evaluation.campaign.runner import run_parts as run_by_workers
 from svsa.evaluation.studies.rows import Span, count_done, find_missing, join_parts, write_part
 from svsa.evaluation.studies.store import claim_study
 from svsa.evaluation.studies.stored import StoredStudy, StudyError
+from svsa.evaluation.studies.study import Study
 from svsa.evaluation.studies.work import run_part
-from svsa.evaluation.workers import start_workers
 
 WORKERS = min(2, os.cpu_count() or 1)
 ROWS_PER_PART = 1024
@@ -54,8 +54,7 @@ def run_study(
         StudyError: If another process runs the study, or a worker was killed.
     """
     laws = len(stored.study.laws)
-    if run_parts is None:
-        run_parts = partial(run_in_processes, workers) if workers else run_here
+    run_parts = run_parts or partial(_run_parts, workers)
     with claim_study(stored):
         spans = _cut(find_missing(stored), max(1, rows_per_part // laws), is_cancelled)
         done, total = count_done(stored) * laws, stored.study.row_count
@@ -81,38 +80,15 @@ def _cut(spans: list[Span], length: int, is_cancelled: Callable[[], bool]) -> It
             yield begin, min(begin + length, stop)
 
 
-def run_here(stored: StoredStudy, spans: Iterator[Span]) -> Iterator[Part]:
-    """Yield the parts of these spans, computed in this process."""
-    for first, stop in spans:
-        yield (first, stop), run_part(stored.study, first, stop - first)
+def _run_parts(workers: int, stored: StoredStudy, spans: Iterator[Span]) -> Iterator[Part]:
+    """Yield the parts of these spans; after an interruption those in progress."""
+    try:
+        yield from run_by_workers(workers, partial(_run_span, stored.study), spans)
+    except BrokenProcessPool:
+        text = "A worker was ended from outside. Finished parts are kept: continue with"
+        raise StudyError(f"{text} `svsa study run {stored.name}`.") from None
 
 
-def run_in_processes(workers: int, stored: StoredStudy, spans: Iterator[Span]) -> Iterator[Part]:
-    """Yield the parts of these spans, computed by processes of low priority; after an
-    interruption those in progress.
-    """
-    with start_workers(workers) as pool:
-        begun: dict[Future[bytes], Span] = {}
-        interrupted: KeyboardInterrupt | None = None
-        while True:
-            while interrupted is None and len(begun) < 2 * workers:
-                span = next(spans, None)
-                if span is None:
-                    break
-                begun[pool.submit(run_part, stored.study, span[0], span[1] - span[0])] = span
-            if not begun:
-                break
-            try:
-                finished, _ = wait(begun, return_when=FIRST_COMPLETED)
-            except KeyboardInterrupt as error:
-                interrupted = error
-                begun = {future: span for future, span in begun.items() if not future.cancel()}
-                continue
-            for future in finished:
-                try:
-                    yield begun.pop(future), future.result()
-                except BrokenProcessPool:
-                    text = "A worker was ended from outside. Finished parts are kept: continue with"
-                    raise StudyError(f"{text} `svsa study run {stored.name}`.") from None
-        if interrupted is not None:
-            raise interrupted
+def _run_span(study: Study, span: Span) -> bytes:
+    first, stop = span
+    return run_part(study, first, stop - first)

@@ -2,20 +2,16 @@
 
 import os
 from collections.abc import Callable, Generator, Iterable
-from concurrent.futures import FIRST_COMPLETED, Future, wait
 from concurrent.futures.process import BrokenProcessPool
 from functools import partial
-from itertools import islice
 from pathlib import Path
 
 from svsa.errors import ParameterError, StateError, SvsaError, Violation
-from svsa.evaluation.workers import start_workers
+from svsa.evaluation.campaign.runner import run_parts
 from svsa.teaching.course.exercise import Exercise
 from svsa.teaching.grading.grade import Grade, grade
 from svsa.teaching.grading.gradebook import Book
 from svsa.teaching.submission import read_submission
-
-_WAITING_EACH = 2
 
 
 class GraderLostError(StateError):
@@ -84,30 +80,17 @@ def grade_files(
         GraderLostError: If a worker process was lost.
     """
     workers = workers or os.cpu_count() or 1
-    waiting = iter(files)
+    run = partial(grade_file, exercises=exercises, runs=runs, book=book, again=again)
     if workers == 1:
-        for path in waiting:
-            yield path, _take(partial(grade_file, path, exercises, runs, book, again, report))
-        return
-    with start_workers(workers) as pool:
-        asked = dict[Future[Grade], Path]()
-        try:
-            while True:
-                room = _WAITING_EACH * workers - len(asked)
-                for path in islice(waiting, room):
-                    asked[pool.submit(grade_file, path, exercises, runs, book, again)] = path
-                if not asked:
-                    return
-                for answer in wait(asked, return_when=FIRST_COMPLETED).done:
-                    yield asked.pop(answer), _take(answer.result)
-        except BrokenProcessPool:
-            raise GraderLostError from None
-        finally:
-            pool.shutdown(cancel_futures=True)
-
-
-def _take(give: Callable[[], Grade]) -> Grade | SvsaError:
+        workers, run = 0, partial(run, report=report)
     try:
-        return give()
+        yield from run_parts(workers, partial(_take, run), files)
+    except BrokenProcessPool:
+        raise GraderLostError from None
+
+
+def _take(run: Callable[[Path], Grade], path: Path) -> Grade | SvsaError:
+    try:
+        return run(path)
     except SvsaError as error:
         return error

@@ -32,7 +32,7 @@ def submit(store, person, student, exercise=FL, law=None, **reported):
     return path
 
 
-def end_process(*_):
+def end_process(*_, **options):
     os._exit(1)
 
 
