@@ -1,13 +1,11 @@
 """A tuning as a job: the worker writes a line for each candidate, and a file at the end."""
 
-import contextlib
-import json
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from svsa.evaluation.campaign.journal import Journal, read_lines
 from svsa.evaluation.tuning.file import describe_candidate, format_tuned
 from svsa.evaluation.tuning.tuner import Candidate, tune
-from svsa.inputs.nesting import load_json
 from svsa.runs.configuration import Design
 from svsa_server.jobs.progress import JobFolder
 
@@ -26,31 +24,28 @@ class Task(NamedTuple):
 
 def search(folder: JobFolder, task: Task) -> bool:
     """Tune a law in a worker; return whether the budget was used up."""
-    with (folder.path / _CANDIDATES).open("w", encoding="utf-8", buffering=1) as lines:
+    journal = Journal(folder.path / _CANDIDATES)
 
-        def note(candidate: Candidate) -> None:
-            lines.write(json.dumps(describe_candidate(candidate)) + "\n")
-            folder.report(candidate.number + 1, task.budget + 1)
+    def note(candidate: Candidate) -> None:
+        journal.write(describe_candidate(candidate))
+        folder.report(candidate.number + 1, task.budget + 1)
 
-        tuned = tune(
-            task.law,
-            budget=task.budget,
-            seed=task.seed,
-            held=task.held,
-            present=task.present,
-            on_candidate=note,
-            is_cancelled=folder.is_cancelled,
-        )
+    tuned = tune(
+        task.law,
+        budget=task.budget,
+        seed=task.seed,
+        held=task.held,
+        present=task.present,
+        on_candidate=note,
+        is_cancelled=folder.is_cancelled,
+    )
     (folder.path / _FILE).write_text(format_tuned(tuned), encoding="utf-8")
     return tuned.is_complete
 
 
 def read_candidates(folder: Path) -> list[dict[str, Any]]:
     """Read the candidates so far, and those on the validation trials."""
-    with contextlib.suppress(FileNotFoundError):
-        whole, _, _ = (folder / _CANDIDATES).read_text(encoding="utf-8").rpartition("\n")
-        return [load_json(line) for line in whole.splitlines()]
-    return []
+    return read_lines(folder / _CANDIDATES)
 
 
 def find_file(folder: Path) -> Path | None:

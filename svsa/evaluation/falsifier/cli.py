@@ -50,23 +50,23 @@ def search_command(
 ) -> None:
     """Search for the worst load, simplify it and save it. Ctrl-C saves the worst so far."""
     from svsa.evaluation.falsifier.falsification import falsify as find
-    from svsa.evaluation.falsifier.file import (
-        forget_search,
-        keep_search,
-        read_adversary,
-        read_search,
-        write_scenario,
-    )
+    from svsa.evaluation.falsifier.file import open_search, read_adversary, write_scenario
     from svsa.evaluation.falsifier.measure import list_baselines
 
     check_picture("--picture", picture)
     adversary = read_adversary(source, **({} if law is None else {"law": law}))
     path = output or Path(f"{Path(source).stem}-{adversary.law}.toml")
     check_writable("--output", path)
-    known = read_search(path, adversary, seed, "cma")
+    journal = open_search(path, adversary, seed, "cma")
     with show_progress(_messages, get_title(adversary.law), runs) as report:
-        on_generation = _report_worst(adversary, report)
-        falsified = find(adversary, runs=runs, seed=seed, known=known, on_generation=on_generation)
+        falsified = find(
+            adversary,
+            runs=runs,
+            seed=seed,
+            known=[float(text) for generation in journal.known for text in generation],
+            on_generation=_report_worst(adversary, report),
+            on_runs=lambda severities: journal.write([*map(repr, severities)]),
+        )
     scenario = falsified.scenario
     write_scenario(path, scenario)
     if not as_json:
@@ -75,13 +75,12 @@ def search_command(
     _compare_laws(scenario, list_baselines(adversary.law), described, picture)
     _messages.print(f"Saved as {path}. Other laws: svsa falsify run {path} --laws all")
     if not falsified.is_complete:
-        keep_search(path, adversary, seed, "cma", falsified.severities)
         _messages.print(
             f"Interrupted after {len(falsified.severities)} of {runs} runs, not simplified. The"
             " same command continues the search."
         )
         raise typer.Exit(INTERRUPTED)
-    forget_search(path)
+    journal.remove()
 
 
 @falsify.command("run")

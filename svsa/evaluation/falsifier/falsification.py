@@ -130,7 +130,8 @@ class _EndedError(Exception):
 class _Search:
     """The runs of a search, counted up to its limit; known ones are not repeated.
 
-    `on_worse` is called with number and attack of each run that is worse than all previous ones.
+    `on_worse` is called with number and attack of each run that is worse than all previous ones;
+    `on_runs` with the severities of runs that were not known.
     """
 
     def __init__(
@@ -139,12 +140,13 @@ class _Search:
         runs: int,
         known: Sequence[float] | np.ndarray,
         on_worse: Callable[[int, Attack, float], None],
+        on_runs: Callable[[list[float]], None],
     ) -> None:
         self.adversary, self.base = adversary, adversary.build_base()
         self.severities: list[float] = []
         self.worst: tuple[int, Attack] | None = None
         self._runs, self._known = runs, np.asarray(known, dtype=float)
-        self._on_worse = on_worse
+        self._on_worse, self._on_runs = on_worse, on_runs
 
     def judge(self, shares: np.ndarray) -> np.ndarray:
         """Compute the severity of each attack of a generation.
@@ -166,6 +168,8 @@ class _Search:
             self._on_worse(done + worst + 1, attacks[worst], float(severity[worst]))
         is_fault = bool(np.isposinf(severity[worst]))
         self.severities += severity.tolist()[: worst + 1 if is_fault else None]
+        if len(self.severities) > len(self._known):
+            self._on_runs(self.severities[max(done, len(self._known)) :])
         if is_fault or len(self.severities) >= self._runs:
             raise _EndedError
         return severity
@@ -183,6 +187,7 @@ def falsify(
     known: Sequence[float] | np.ndarray = (),
     on_generation: Callable[[int, float], None] = lambda done, worst: None,
     on_worse: Callable[[LoadScenario], None] = lambda scenario: None,
+    on_runs: Callable[[list[float]], None] = lambda severities: None,
     is_cancelled: Callable[[], bool] = lambda: False,
     is_shrunk: bool = True,
 ) -> Falsified:
@@ -201,6 +206,7 @@ def falsify(
         on_generation: Called after each generation with the number of runs and the largest
             severity.
         on_worse: Called with each attack that is worse than all previous ones, as a scenario.
+        on_runs: Called with the severities of each generation that was not known.
         is_cancelled: Called before each generation; True ends the search as Ctrl-C does.
         is_shrunk: Whether the attack is simplified and its neighborhood is run.
 
@@ -220,7 +226,7 @@ def falsify(
         search = method, seed, number, number
         on_worse(_describe(adversary, attack, adversary.duration_s, (text, text), search))
 
-    state = _Search(adversary, runs, known, report_worse)
+    state = _Search(adversary, runs, known, report_worse, on_runs)
     nothing = state.measure([Attack((), {})])
     if not np.isfinite(nothing.severity[0]):
         text = describe_outcome(nothing, 0, adversary.cost)

@@ -3,21 +3,18 @@
 Scenarios are stored by name in the folder of the runs, so that any law can be run in them.
 """
 
-import json
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import tomli_w
 
 from svsa.errors import ParameterError, Violation
+from svsa.evaluation.campaign.journal import Journal, define_search
 from svsa.evaluation.falsifier.adversary import Adversary
 from svsa.evaluation.falsifier.scenario import LoadScenario
 from svsa.evaluation.search import Method
 from svsa.evaluation.studies.store import check_name
 from svsa.inputs.data_folder import find_data_folder
-from svsa.inputs.extras import __version__
-from svsa.inputs.nesting import load_json
 from svsa.inputs.toml_file import build_checked, parse_toml, read_checked, read_toml
 from svsa.runs.records.header import replace_file
 
@@ -176,40 +173,9 @@ def _find(name: str) -> Path:
     return example if example.exists() and not path.exists() else path
 
 
-def keep_search(
-    path: Path, adversary: Adversary, seed: int, method: Method, severities: np.ndarray
-) -> Path:
-    """Save the runs of a search that writes to `path`; return the file."""
-    kept_path = path.with_name(path.name + SEARCH_SUFFIX)
-    description = _describe_search(adversary, seed, method)
-    content = description | {
-        "severities": [_write_severity(value) for value in severities.tolist()]
-    }
-    replace_file(kept_path, json.dumps(content).encode())
-    return kept_path
-
-
-def read_search(path: Path, adversary: Adversary, seed: int, method: Method) -> np.ndarray:
-    """Read the runs of the same search; none if there is no file or it is of another search."""
-    kept_path = path.with_name(path.name + SEARCH_SUFFIX)
-    try:
-        kept = load_json(kept_path.read_text(encoding="utf-8"))
-        severities = kept.pop("severities")
-    except (OSError, ValueError, KeyError, AttributeError):
-        return np.empty(0)
-    same = kept == json.loads(json.dumps(_describe_search(adversary, seed, method)))
-    return np.array([float(value) for value in severities]) if same else np.empty(0)
-
-
-def forget_search(path: Path) -> None:
-    """Delete the saved runs of a finished search."""
-    path.with_name(path.name + SEARCH_SUFFIX).unlink(missing_ok=True)
-
-
-def _describe_search(adversary: Adversary, seed: int, method: Method) -> dict[str, Any]:
-    description: dict[str, Any] = {"version": __version__, "seed": seed, "method": method}
-    return description | {"adversary": adversary.model_dump(mode="json")}
-
-
-def _write_severity(value: float) -> float | str:
-    return value if np.isfinite(value) else repr(value)
+def open_search(path: Path, adversary: Adversary, seed: int, method: Method) -> Journal:
+    """Open the journal of a search that writes to `path`: the severities of each generation."""
+    definition = define_search(
+        adversary.law, seed=seed, method=method, adversary=adversary.model_dump(mode="json")
+    )
+    return Journal(path.with_name(path.name + SEARCH_SUFFIX), definition)

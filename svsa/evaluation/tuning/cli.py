@@ -2,7 +2,7 @@
 
 import json
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from rich.console import Console
@@ -10,13 +10,14 @@ from rich.table import Table
 
 from svsa.control.installed import check_installed, get_title, list_law_names
 from svsa.errors import ParameterError, Violation
-from svsa.evaluation.progress_bar import Report, show_progress
+from svsa.evaluation.progress_bar import show_progress
 
 _messages = Console(stderr=True)
 INTERRUPTED = 130
 RANKING_BUDGET, BUDGET = 2000, 128
 
 if TYPE_CHECKING:
+    from svsa.evaluation.campaign.journal import Journal
     from svsa.evaluation.tuning.tuner import Candidate, Tuned
 
 
@@ -56,49 +57,50 @@ def tune(
 ) -> None:
     """Tune a law, or all laws for the ranking. Ctrl-C ends the search and saves the best so far.
 
-    --all skips laws that have a result with the same budget, and continues an interrupted search
-    from its checkpoint.
+    The same command continues an interrupted search. --all skips laws that have a result with the
+    same budget.
     """
     if every == (law is not None):
         raise ParameterError(Violation("law", law, "", "one law, or --all"))
     if every:
         _tune_all(budget or RANKING_BUDGET, trials, validation, seed, output)
         return
+    from svsa.evaluation.campaign.journal import Journal, define_search
     from svsa.evaluation.tuning.file import describe_tuned
-    from svsa.evaluation.tuning.tuner import tune as search
-    from svsa.runs.design_file import read_design
+    from svsa.runs.design_file import load_prototype, read_design
 
     name = check_installed(law or "")
-    count = budget or BUDGET
-    with show_progress(_messages, get_title(name), count, "candidates") as report:
-        tuned = search(
-            name,
-            budget=count,
-            trials=trials,
-            validation=validation,
-            seed=seed,
-            held=dict(map(_read_held, hold or ())),
-            present=None if parameters is None else read_design(parameters),
-            on_candidate=_Follow(report, get_title(name)),
-        )
-    if as_json:
+    path = None if as_json else output or Path(f"{name}.toml")
+    held = dict(map(_read_held, hold or ()))
+    present = load_prototype() if parameters is None else read_design(parameters)
+    started = {
+        "trials": trials,
+        "seed": seed,
+        "held": held,
+        "from": present.model_dump(mode="json"),
+    }
+    definition = define_search(name, **started)
+    journal = Journal(path and path.with_name(path.name + ".search"), definition)
+    numbers = {"budget": budget or BUDGET, "trials": trials, "validation": validation, "seed": seed}
+    tuned = _search(journal, name, held=held, present=present, **numbers)
+    if path is None:
         typer.echo(json.dumps(describe_tuned(tuned), indent=2))
     else:
-        _save(tuned, output or Path(f"{name}.toml"))
+        _save(tuned, path)
     if not tuned.is_complete:
         raise typer.Exit(INTERRUPTED)
+    journal.remove()
 
 
 def _tune_all(budget: int, trials: int, validation: int, seed: int, output: Path | None) -> None:
     """Tune every installed law in turn, with a checkpoint each."""
-    from svsa.evaluation.tuning.file import describe_candidate, read_checkpoint
+    from svsa.evaluation.campaign.journal import Journal
     from svsa.evaluation.tuning.tuned_law import (
         FOLDER,
         build_tuned_law,
         list_tuned_laws,
         write_tuned_law,
     )
-    from svsa.evaluation.tuning.tuner import tune as search
 
     folder = output or FOLDER
     arguments = budget, trials, validation, seed
@@ -110,29 +112,14 @@ def _tune_all(budget: int, trials: int, validation: int, seed: int, output: Path
     for law in list_law_names():
         if law in done:
             continue
-        checkpoint = folder / f"{law}.{budget}-{trials}-{seed}.jsonl"
-        checkpoint.parent.mkdir(parents=True, exist_ok=True)
-        known = read_checkpoint(checkpoint)
-        with (
-            show_progress(_messages, get_title(law), budget, "candidates") as report,
-            checkpoint.open("a", encoding="utf-8") as lines,
-        ):
-            follow = _Follow(report, get_title(law))
-
-            def note(candidate: "Candidate", follow: "_Follow" = follow) -> None:
-                if candidate.stage != "validation" and candidate.number >= len(known):  # noqa: B023  used before the next law begins
-                    lines.write(json.dumps(describe_candidate(candidate)) + "\n")
-                    lines.flush()
-                follow(candidate)
-
-            tuned = search(
-                law, budget=budget, trials=trials, validation=validation, seed=seed, known=known,
-                on_candidate=note,
-            )  # fmt: skip
+        folder.mkdir(parents=True, exist_ok=True)
+        journal = Journal(folder / f"{law}.{budget}-{trials}-{seed}.jsonl")
+        numbers = {"budget": budget, "trials": trials, "validation": validation, "seed": seed}
+        tuned = _search(journal, law, **numbers)
         if not tuned.is_complete:
             raise typer.Exit(INTERRUPTED)
         write_tuned_law(folder, build_tuned_law(tuned))
-        checkpoint.unlink()
+        journal.remove()
         before, after = tuned.finals[0].judgment, tuned.best.judgment
         _messages.print(
             f"{get_title(law)}: cost {before.cost:.3f} → {after.cost:.3f}, held {before.held} →"
@@ -142,16 +129,22 @@ def _tune_all(budget: int, trials: int, validation: int, seed: int, output: Path
         )
 
 
-class _Follow:
-    """Shows the candidates of a search on a progress bar."""
+def _search(journal: "Journal", law: str, budget: int, **arguments: Any) -> "Tuned":
+    """Continue or begin a search, with its progress on a bar and its candidates in a journal."""
+    from svsa.evaluation.tuning.file import describe_candidate, read_candidate
+    from svsa.evaluation.tuning.tuner import tune
 
-    def __init__(self, report: Report, title: str) -> None:
-        self._report, self._title = report, title
-        self._best = float("inf")
+    known, best = [*map(read_candidate, journal.known)], [float("inf")]
+    title = get_title(law)
+    with show_progress(_messages, title, budget, "candidates") as report:
 
-    def __call__(self, candidate: "Candidate") -> None:
-        self._best = min(self._best, candidate.judgment.cost)
-        self._report(candidate.number, f"{self._title}: best {self._best:.4g}")
+        def note(candidate: "Candidate") -> None:
+            if candidate.stage != "validation" and candidate.number >= len(known):
+                journal.write(describe_candidate(candidate))
+            best[0] = min(best[0], candidate.judgment.cost)
+            report(candidate.number, f"{title}: best {best[0]:.4g}")
+
+        return tune(law, budget=budget, known=known, on_candidate=note, **arguments)
 
 
 def _save(tuned: "Tuned", path: Path) -> None:

@@ -1,6 +1,5 @@
-"""Results of a search as parameter file, JSON and checkpoint."""
+"""Results of a search as parameter file and JSON."""
 
-from pathlib import Path
 from typing import Any
 
 import numpy
@@ -10,7 +9,6 @@ from svsa.control.installed import has_own_parameters
 from svsa.evaluation.tuning.judge import Judgment
 from svsa.evaluation.tuning.tuner import Candidate, Tuned
 from svsa.inputs.extras import __version__
-from svsa.inputs.nesting import load_json
 from svsa.runs.design_file import format_design
 
 _NOT_TUNED = "as before the tuning"
@@ -73,17 +71,10 @@ def describe_candidate(candidate: Candidate) -> dict[str, Any]:
     return {"number": candidate.number, "stage": candidate.stage, "values": values} | judged
 
 
-def read_checkpoint(path: Path) -> list[Candidate]:
-    """Read the candidates before validation, one per line, without an incomplete last line."""
-    if not path.exists():
-        return []
-    whole, _, _ = path.read_text(encoding="utf-8").rpartition("\n")
-    read = [_read_candidate(load_json(line)) for line in whole.splitlines()]
-    return [candidate for candidate in read if candidate.stage != "validation"]
-
-
-def _read_candidate(written: dict[str, Any]) -> Candidate:
-    number, stage, values = (written.pop(name) for name in ("number", "stage", "values"))
-    if written["torque_variation_nm_per_s"] is None:
-        written["torque_variation_nm_per_s"] = float("inf")
-    return Candidate(number, stage, tuple(values), Judgment(**written))
+def read_candidate(written: dict[str, Any]) -> Candidate:
+    """Read a candidate before validation from the JSON of `describe_candidate`."""
+    judged = {name: written[name] for name in Judgment._fields}
+    if judged["torque_variation_nm_per_s"] is None:
+        judged["torque_variation_nm_per_s"] = float("inf")
+    values = tuple(written["values"])
+    return Candidate(written["number"], written["stage"], values, Judgment(**judged))

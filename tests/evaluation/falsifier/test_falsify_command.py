@@ -98,7 +98,7 @@ def test_error_of_a_law_argument_does_not_mention_the_file(tmp_path):
 def test_result_of_another_search_is_not_overwritten(tmp_path):
     (tmp_path / "pulse.toml").write_text(GOOD)
     search("--law", "fl", "--output", "one.toml", "--seed", "1")
-    (tmp_path / "two.toml.search").write_text('{"seed": 0, "severities": [1e9]}')
+    (tmp_path / "two.toml.search").write_text('{"seed": 0}\n["1e9"]\n')
     search("--law", "fl", "--output", "two.toml", "--seed", "1")
     assert (tmp_path / "two.toml").read_bytes() == (tmp_path / "one.toml").read_bytes()
 

@@ -10,9 +10,10 @@ from typer.testing import CliRunner
 import svsa
 from svsa.cli import app
 from svsa.control.installed import get_law, list_law_names
+from svsa.evaluation.campaign.journal import Journal
 from svsa.evaluation.trials import build_training
 from svsa.evaluation.tuning import tuned_law
-from svsa.evaluation.tuning.file import describe_candidate, format_tuned, read_checkpoint
+from svsa.evaluation.tuning.file import describe_candidate, format_tuned, read_candidate
 from svsa.evaluation.tuning.judge import (
     LOUD,
     Judgment,
@@ -68,10 +69,10 @@ def test_interrupted_search_continues_to_the_same_result(tmp_path):
     )
     assert not stopped.is_complete
     assert "20 of 40 candidates" in format_tuned(stopped)
-    checkpoint = tmp_path / "checkpoint.jsonl"
+    journal = tmp_path / "checkpoint.jsonl"
     lines = [json.dumps(describe_candidate(one)) for one in seen]
-    checkpoint.write_text("\n".join([*lines, '{"number": 21, "sta']))
-    known = read_checkpoint(checkpoint)
+    journal.write_text("\n".join([*lines, '{"number": 21, "sta']))
+    known = [*map(read_candidate, Journal(journal).known)]
     assert known == seen
     asked = []
     again = tune(LAW, budget=40, known=known, on_candidate=asked.append, **SHORT)
@@ -102,6 +103,30 @@ def test_ctrl_c_saves_the_best_candidate(tmp_path, monkeypatch):
     assert found.exit_code == 130
     assert "Interrupted after 0 of" in found.stdout
     assert (tmp_path / "mine.toml").exists()
+
+
+@pytest.mark.usefixtures("planted")
+def test_killed_command_continues_to_the_same_file(tmp_path, monkeypatch):
+    whole, part = tmp_path / "whole.toml", tmp_path / "part.toml"
+    journal = tmp_path / "part.toml.search"
+    options = [LAW, "--budget", "20", "--trials", "2", "--validation", "2", "--output"]
+    assert CliRunner().invoke(app, ["tune", *options, str(whole)]).exit_code == 0
+
+    def end(journal, trial, write=Journal.write):
+        write(journal, trial)
+        if trial["number"] == 9:
+            raise SystemError  # as little is saved as by a kill
+
+    with monkeypatch.context() as patch:
+        patch.setattr(Journal, "write", end)
+        assert isinstance(
+            CliRunner().invoke(app, ["tune", *options, str(part)]).exception, SystemError
+        )
+    assert not part.exists()
+    assert len(journal.read_text().splitlines()) == 1 + 10
+    assert CliRunner().invoke(app, ["tune", *options, str(part)]).exit_code == 0
+    assert part.read_text() == whole.read_text()
+    assert not journal.exists()
 
 
 @pytest.mark.exhaustive
