@@ -5,6 +5,7 @@ const FOLDERS = [
   ["layout"],
   ["teaching/classroom", "teaching/course", "teaching/grades", "teaching/leaderboard"],
   ["evaluation/falsifier", "evaluation/ranking", "evaluation/studies"],
+  ["evaluation/campaign"],
   ["lab/actuators", "lab/keys"],
   ["runs/list"],
   ["lab/arm", "lab/lease", "lab/panels", "lab/safety", "lab/scene", "lab/script"],

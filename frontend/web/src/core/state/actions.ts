@@ -103,22 +103,6 @@ export async function perform(
   }
 }
 
-// Requests whose rejection is shown at one place of the page.
-
-type Attempt = <T>(request: () => Promise<T>) => Promise<T | null>;
-
-/** Wrap a background request: null if rejected; an earlier error message stays. */
-export const backgroundAttempt =
-  (problem: Signal<string>): Attempt =>
-  async (request) => {
-    try {
-      return await request();
-    } catch (error) {
-      problem.value = describeError(error);
-      return null;
-    }
-  };
-
 /** Show why a repeated request has no answer; null clears the message. */
 export const showErrorIn = (problem: Signal<string>) => (error: unknown) => {
   problem.value =
@@ -127,13 +111,4 @@ export const showErrorIn = (problem: Signal<string>) => (error: unknown) => {
       : error instanceof UnansweredError
         ? text.connection.retrying
         : describeError(error);
-};
-
-/** Wrap a request of the user: null if rejected, with the reason shown. */
-export const userAttempt = (problem: Signal<string>): Attempt => {
-  const ask = backgroundAttempt(problem);
-  return (request) => {
-    problem.value = "";
-    return ask(request);
-  };
 };

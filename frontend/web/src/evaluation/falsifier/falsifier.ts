@@ -18,9 +18,8 @@ import {
   traceLaws,
 } from "../../core/api/falsifications";
 import type { Law } from "../../core/api/types";
-import { createPoll, createReader } from "../../core/jobs/poll";
 import { isJobRunning } from "../../core/jobs/progress";
-import { backgroundAttempt, showErrorIn } from "../../core/state/actions";
+import { createWork } from "../../core/jobs/work";
 import { isObserver } from "../../core/state/control";
 import { goTo, place, storeLaws } from "../../runs/list/place";
 
@@ -33,8 +32,6 @@ export const savedScenarios = signal<readonly SavedScenario[] | null>(null);
 export const search = signal<Search | null>(null);
 /** The outcomes of the laws, with their scenario, laws and place. */
 export const lastTrace = signal<{ at: string; key: string; trace: Trace } | null>(null);
-export const problem = signal("");
-export const isBusy = signal("");
 
 const NO_SELECTION = { search: "", scenario: "", laws: [] as readonly Law[] };
 
@@ -96,12 +93,11 @@ export const laws = computed((): readonly Law[] => {
 
 export const setLaws = (names: readonly Law[]): void => storeLaws(selection.peek(), names);
 
-const attempt = backgroundAttempt(problem);
-
-const readLists = createReader(showErrorIn(problem));
+const { attempt, perform, poll, read, ...work } = createWork();
+export const { problem, isBusy, leave, stopFollowing } = work;
 
 export const openLists = () =>
-  readLists(
+  read(
     () =>
       Promise.all([
         adversaries.peek().length > 0 ? adversaries.peek() : listAdversaries(),
@@ -115,24 +111,12 @@ export const openLists = () =>
     },
   );
 
-const poll = createPoll(showErrorIn(problem));
-export const { stop: stopFollowing } = poll;
-
-/**
- * Stop following a search; a message about it disappears. Before the lists have arrived the
- * identifier is empty, and a message of the form stays when the first search appears.
- */
-export function leave(id: string): void {
-  stopFollowing();
-  if (id !== "") problem.value = "";
-}
-
 /** Select a search, and follow it until it has ended. */
 export async function follow(id: string): Promise<void> {
   stopFollowing();
   search.value = null;
   if (id === "") return;
-  const pollEnd = await poll.follow(
+  const pollEnd = await poll(
     () => readSearch(id),
     (found) => {
       search.value = found;
@@ -171,10 +155,7 @@ export async function traceSelection(): Promise<void> {
 
 /** Returns whether it was started. */
 export async function startNewSearch(searchRequest: SearchRequest): Promise<boolean> {
-  problem.value = "";
-  isBusy.value = "begin";
-  const started = await attempt(() => startSearch(searchRequest));
-  isBusy.value = "";
+  const started = await perform("begin", () => startSearch(searchRequest));
   if (started === null) return false;
   void openLists();
   goTo({ kind: "falsifier", search: started.id, scenario: "", laws: [] });
@@ -190,26 +171,20 @@ export async function cancel(): Promise<void> {
 export async function saveSelection(name: string): Promise<void> {
   const one = scenario.peek();
   if (one === null) return;
-  problem.value = "";
-  isBusy.value = "keep";
-  const created = await attempt(() => saveScenario(name, one));
-  if (created !== null) {
+  await perform("keep", async () => {
+    const created = await saveScenario(name, one);
     await openLists();
     goTo({ kind: "falsifier", search: "", scenario: created.name, laws: selection.peek().laws });
-  }
-  isBusy.value = "";
+  });
 }
 
 /** Open a private session of a law under it, compared with the searched law. */
 export async function openInLab(law: Law): Promise<void> {
   const one = scenario.peek();
   if (one === null) return;
-  problem.value = "";
-  isBusy.value = `see ${law}`;
   const searchedLaw = findingOf(one)?.law ?? law;
   const pair = law === searchedLaw ? baselinesOf(law) : [law, searchedLaw];
-  const created = await attempt(() => openScenarioSession(one, pair));
-  isBusy.value = "";
+  const created = await perform(`see ${law}`, () => openScenarioSession(one, pair));
   if (created !== null) {
     location.assign(`${location.pathname}?session=${encodeURIComponent(created.session)}`);
   }

@@ -7,8 +7,8 @@ import { lineStylesOfLaws } from "../../core/plots/linestyles";
 import { mayCall } from "../../core/state/control";
 import { laws as installedLaws, titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
-import { Example, PageWithForm } from "../../core/widgets/pagelayout";
-import { PlaceLink } from "../../runs/list/place";
+import { PageWithForm } from "../../core/widgets/pagelayout";
+import { ResultMenu } from "../campaign/resultmenu";
 import {
   findingOf,
   follow,
@@ -37,47 +37,33 @@ function SavedScenarios() {
   const { search: shown, scenario: name } = selection.value;
   return (
     <>
-      <nav class="surface card menu" aria-label={words.kept}>
-        <h3>{words.kept}</h3>
-        {savedScenarios.value === null && problem.value === "" && (
-          <p class="hint">{words.loading}</p>
-        )}
-        <ul>
-          {(savedScenarios.value ?? []).map((one) => (
-            <li key={one.name} aria-current={one.name === name ? "page" : undefined}>
-              <PlaceLink
-                to={{ kind: "falsifier", search: "", scenario: one.name, laws: [] }}
-                title={one.title}
-              >
-                <b>{one.name}</b> {one.is_example && <Example />}
-                <small>{findingOf(one.scenario)?.outcome ?? one.title}</small>
-              </PlaceLink>
-            </li>
-          ))}
-        </ul>
-      </nav>
+      <ResultMenu
+        title={words.kept}
+        loading={savedScenarios.value === null && problem.value === "" && words.loading}
+        shown={name}
+        results={(savedScenarios.value ?? []).map((saved) => ({
+          key: saved.name,
+          to: { kind: "falsifier", search: "", scenario: saved.name, laws: [] },
+          title: saved.title,
+          name: saved.name,
+          isExample: saved.is_example,
+          state: findingOf(saved.scenario)?.outcome ?? saved.title,
+        }))}
+      />
       {searches.value !== null && searches.value.length > 0 && (
-        <nav class="surface card menu" aria-label={words.searches}>
-          <h3>{words.searches}</h3>
-          <ul>
-            {searches.value.map((one) => (
-              <li key={one.id} aria-current={one.id === shown ? "page" : undefined}>
-                <PlaceLink
-                  to={{ kind: "falsifier", search: one.id, scenario: "", laws: [] }}
-                  title={one.title}
-                >
-                  <b>{titleOf(one.law)}</b>
-                  <small>
-                    {isJobRunning(one)
-                      ? text.jobs.status[one.status]
-                      : ((one.scenario && findingOf(one.scenario)?.outcome) ??
-                        text.jobs.status[one.status])}
-                  </small>
-                </PlaceLink>
-              </li>
-            ))}
-          </ul>
-        </nav>
+        <ResultMenu
+          title={words.searches}
+          shown={shown}
+          results={searches.value.map((search) => ({
+            key: search.id,
+            to: { kind: "falsifier", search: search.id, scenario: "", laws: [] },
+            title: search.title,
+            name: titleOf(search.law),
+            state:
+              (!isJobRunning(search) && search.scenario && findingOf(search.scenario)?.outcome) ||
+              text.jobs.status[search.status],
+          }))}
+        />
       )}
     </>
   );

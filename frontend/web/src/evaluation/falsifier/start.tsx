@@ -4,6 +4,7 @@ import { titleOf, usableLaws } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { SelectField } from "../../core/widgets/form";
 import { NumberField } from "../../core/widgets/numberinput";
+import { SourceField } from "../campaign/sourcefield";
 import {
   type AdversaryForm,
   describeTerms,
@@ -18,7 +19,6 @@ import { adversaries, isBusy, startNewSearch } from "./falsifier";
 import { TermFields } from "./term";
 
 const words = text.falsifier;
-const OWN = "";
 const RUNS = 20_000;
 
 /** Base of the runs: effects, references. */
@@ -95,11 +95,6 @@ export function Start() {
   const form = from && { ...readForm(from.definition as Adversary), ...changed };
   const tested = law || (form?.law ?? "");
   const change = (more: Partial<AdversaryForm>) => setChanged({ ...changed, ...more });
-  const choose = (name: string) => {
-    if (name === OWN && own === "") setOwn((from ?? first).text);
-    setSource(name);
-    setChanged({});
-  };
   return (
     <form
       class="surface card stack form"
@@ -112,14 +107,18 @@ export function Start() {
       }}
     >
       <h3>{words.begin}</h3>
-      <SelectField
+      <SourceField
         label={words.adversary}
-        value={chosen}
-        options={[...known.map(({ name }) => name), OWN]}
-        name={(name) => (name === OWN ? words.own : name)}
-        onChoose={choose}
+        own={{ name: words.own, label: words.text }}
+        templates={known}
+        source={chosen}
+        text={own}
+        onChange={(name, written) => {
+          setSource(name);
+          setOwn(written);
+          setChanged({});
+        }}
       />
-      {from && <p class="hint">{from.title}</p>}
       <SelectField
         label={words.law}
         value={tested}
@@ -127,7 +126,7 @@ export function Start() {
         name={(name) => (name === "" ? text.studies.asInStudy : titleOf(name))}
         onChoose={setLaw}
       />
-      {form ? (
+      {form && (
         <>
           <SelectField
             label={words.cost}
@@ -159,16 +158,6 @@ export function Start() {
             />
           </div>
         </>
-      ) : (
-        <label>
-          <span>{words.text}</span>
-          <textarea
-            rows={12}
-            spellcheck={false}
-            value={own}
-            onInput={(event) => setOwn(event.currentTarget.value)}
-          />
-        </label>
       )}
       <div class="pair">
         <NumberField

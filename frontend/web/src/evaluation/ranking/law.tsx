@@ -5,7 +5,7 @@ import { text } from "../../core/text/en";
 import { formatNumber, toDegrees } from "../../core/units";
 import { MathSymbol } from "../../core/widgets/symbol";
 import { quantileOf, RECOVERY, SHARE, writeOutcome } from "./columns";
-import { chosen, openInLab, opening, results, splitSource, titleOfRow } from "./ranking";
+import { chosen, isBusy, openInLab, results, splitSource, titleOfRow } from "./ranking";
 
 const words = text.ranking;
 
@@ -52,7 +52,7 @@ function ScenarioRow({ row, one }: { row: Row; one: Outcome }) {
         <button
           type="button"
           title={words.seeWorst}
-          disabled={opening.value !== ""}
+          disabled={isBusy.value !== ""}
           onClick={() => void openInLab(row.key, one.worst)}
         >
           {one.title}

@@ -1,8 +1,7 @@
 /** The published results, their order, and the selected row. */
 import { computed, signal } from "@preact/signals";
 import { openRankingSession, type Results, type Row, readRanking } from "../../core/api/ranking";
-import { createReader } from "../../core/jobs/poll";
-import { explain, showErrorIn } from "../../core/state/actions";
+import { createWork } from "../../core/jobs/work";
 import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { sortRows } from "./columns";
@@ -11,12 +10,10 @@ import { sortRows } from "./columns";
 export const DECLARED = "ndobc_declared";
 
 export const results = signal<Results | null>(null);
-export const problem = signal("");
 /** "column", or "-column" for descending order. */
 export const sort = signal("rank");
 /** Key of the selected row. */
 export const chosen = signal("");
-export const opening = signal("");
 
 export const rows = computed<readonly Row[]>(() => {
   const key = sort.value.replace(/^-/, "");
@@ -26,11 +23,12 @@ export const rows = computed<readonly Row[]>(() => {
 export const titleOfRow = ({ key, law }: Pick<Row, "key" | "law">): string =>
   key === DECLARED ? text.ranking.declared(titleOf(law)) : titleOf(law);
 
-const readResults = createReader(showErrorIn(problem));
+const { read, perform, ...work } = createWork();
+export const { problem, isBusy } = work;
 
 export async function openRanking(): Promise<void> {
   if (results.peek() !== null) return;
-  await readResults(readRanking, (found) => {
+  await read(readRanking, (found) => {
     results.value = found;
     chosen.value = found.rows[0]?.key ?? "";
   });
@@ -38,15 +36,10 @@ export async function openRanking(): Promise<void> {
 
 /** Opens a private session of this run in the lab. */
 export async function openInLab(row: string, scenario: string): Promise<void> {
-  opening.value = `${row} ${scenario}`;
-  problem.value = "";
-  try {
+  await perform("open", async () => {
     const { session } = await openRankingSession(row, scenario);
     location.assign(`${location.pathname}?session=${encodeURIComponent(session)}`);
-  } catch (error) {
-    problem.value = explain(error);
-    opening.value = "";
-  }
+  });
 }
 
 const DOI = /doi:(10\.\d{4,}\/\S+)$/;

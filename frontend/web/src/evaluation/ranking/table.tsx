@@ -2,7 +2,7 @@ import type { Row } from "../../core/api/ranking";
 import { text } from "../../core/text/en";
 import { SortHeads } from "../../core/widgets/tables";
 import { COLUMNS, type Column } from "./columns";
-import { chosen, openInLab, opening, results, rows, sort, titleOfRow } from "./ranking";
+import { chosen, isBusy, openInLab, results, rows, sort, titleOfRow } from "./ranking";
 
 const words = text.ranking;
 
@@ -19,7 +19,7 @@ function Cell({ column, row }: { column: Column; row: Row }) {
         type="button"
         title={words.see(titleOfRow(row), name)}
         aria-label={words.seeLabel(titleOfRow(row), name, shown)}
-        disabled={opening.value !== ""}
+        disabled={isBusy.value !== ""}
         onClick={() => void openInLab(row.key, scenario)}
       >
         {shown}

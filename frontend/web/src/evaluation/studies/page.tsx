@@ -6,7 +6,7 @@ import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { Example, PageWithForm } from "../../core/widgets/pagelayout";
 import { Popup } from "../../core/widgets/popup";
-import { PlaceLink } from "../../runs/list/place";
+import { ResultMenu } from "../campaign/resultmenu";
 import { Distribution } from "./distribution";
 import { brushedCount } from "./drawnrows";
 import { SuccessMap } from "./map";
@@ -37,25 +37,23 @@ import { LawTable, Sensitivity } from "./tables";
 const words = text.studies;
 
 function SavedStudies() {
-  const saved = list.value?.saved ?? [];
   return (
-    <nav class="surface card menu" aria-label={words.kept}>
-      <h3>{words.kept}</h3>
-      {list.value === null && problem.value === "" && <p class="hint">{words.loading}</p>}
-      <ul>
-        {saved.map((one) => (
-          <li key={one.name} aria-current={one.name === chosenName.value ? "page" : undefined}>
-            <PlaceLink to={{ kind: "studies", study: one.name, look: {} }} title={one.title}>
-              <b>{one.name}</b> {one.is_example && <Example />}
-              <small>
-                {words.state(one.done, one.rows)}
-                {one.job && isJobRunning(one.job) && `, ${text.jobs.status[one.job.status]}`}
-              </small>
-            </PlaceLink>
-          </li>
-        ))}
-      </ul>
-    </nav>
+    <ResultMenu
+      title={words.kept}
+      loading={list.value === null && problem.value === "" && words.loading}
+      shown={chosenName.value}
+      results={(list.value?.saved ?? []).map((saved) => ({
+        key: saved.name,
+        to: { kind: "studies", study: saved.name, look: {} },
+        title: saved.title,
+        name: saved.name,
+        isExample: saved.is_example,
+        state: [
+          words.state(saved.done, saved.rows),
+          ...(saved.job && isJobRunning(saved.job) ? [text.jobs.status[saved.job.status]] : []),
+        ].join(", "),
+      }))}
+    />
   );
 }
 

@@ -6,11 +6,11 @@ import { text } from "../../core/text/en";
 import { SelectField } from "../../core/widgets/form";
 import { NumberField } from "../../core/widgets/numberinput";
 import { Boxes, LawBoxes } from "../../core/widgets/pagelayout";
+import { OWN, SourceField } from "../campaign/sourcefield";
 import { isBusy, list, problem, startNewStudy } from "./studies";
 import { factorOf, nameColumn } from "./studyview";
 
 const words = text.studies;
-const OWN = "";
 const FIRST = "load";
 const MAX_RUNS = 1_000_000_000;
 
@@ -61,29 +61,19 @@ export function Start() {
       }}
     >
       <h3>{words.begin}</h3>
-      <SelectField
+      <SourceField
         label={words.source}
-        value={source}
-        options={[...builtIn.map((one) => one.name), OWN]}
-        name={(one) => (one === OWN ? words.own : one)}
-        onChoose={(chosen) => {
-          const template = builtIn.find((one) => one.name === source)?.text ?? "";
-          change(() => setSource(chosen));
-          if (chosen === OWN && own === "") setOwn(template);
-        }}
+        own={{ name: words.own, label: words.text }}
+        templates={builtIn}
+        source={source}
+        text={own}
+        onChange={(chosen, written) =>
+          change(() => {
+            setSource(chosen);
+            setOwn(written);
+          })
+        }
       />
-      <p class="hint">{builtIn.find((one) => one.name === source)?.title}</p>
-      {source === OWN && (
-        <label>
-          <span>{words.text}</span>
-          <textarea
-            rows={12}
-            spellcheck={false}
-            value={own}
-            onInput={(event) => change(() => setOwn(event.currentTarget.value))}
-          />
-        </label>
-      )}
       <NumberField
         label={words.runs}
         title={words.runsHint}

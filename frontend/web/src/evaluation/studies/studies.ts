@@ -18,9 +18,9 @@ import {
   type StudySummary,
   startStudy,
 } from "../../core/api/studies";
-import { createPoll, createReader, nullIfRejected } from "../../core/jobs/poll";
+import { nullIfRejected } from "../../core/jobs/poll";
 import { isJobRunning } from "../../core/jobs/progress";
-import { backgroundAttempt, showErrorIn } from "../../core/state/actions";
+import { createWork } from "../../core/jobs/work";
 import { goTo, place, storeStudyView } from "../../runs/list/place";
 import { NOTHING, type Rows, unpackRows } from "./rows";
 import { chooseAxes, type PlaneBrush, readBrush, writeBrush } from "./studyview";
@@ -33,8 +33,6 @@ export const rows = signal<Rows>(NOTHING);
 export const summary = signal<StudySummary | null>(null);
 export const indices = signal<readonly SobolIndices[]>([]);
 export const selectedRows = signal<readonly StudyRow[]>([]);
-export const problem = signal("");
-export const isBusy = signal("");
 
 const view = computed(() => (place.value.kind === "studies" ? place.value.look : {}));
 /** The study that the address names, else the newest one; before the first the example. */
@@ -63,23 +61,11 @@ export const setView = (changed: Readonly<Record<string, string>>): void =>
 export const setBrush = (next: PlaneBrush | null): void =>
   setView({ brush: next === null ? "" : writeBrush(next) });
 
-const attempt = backgroundAttempt(problem);
-const poll = createPoll(showErrorIn(problem));
-export const { stop: stopFollowing } = poll;
-
-/**
- * Stop following a study; a message about it disappears. Before the list has arrived the name is
- * empty, and a message of the form stays when the first study appears.
- */
-export function leave(name: string): void {
-  stopFollowing();
-  if (name !== "") problem.value = "";
-}
-
-const readList = createReader(showErrorIn(problem));
+const { attempt, perform, poll, read, showError, ...work } = createWork();
+export const { problem, isBusy, leave, stopFollowing } = work;
 
 export const openList = () =>
-  readList(listStudies, (found) => {
+  read(listStudies, (found) => {
     list.value = found;
   });
 
@@ -95,9 +81,9 @@ async function loadRows(name: string): Promise<void> {
 export const fetchRows = (name: string) => attempt(() => loadRows(name));
 
 async function loadSummary(found: Study): Promise<void> {
-  const read = await nullIfRejected(readSummary(found.name), showErrorIn(problem));
+  const answer = await nullIfRejected(readSummary(found.name), showError);
   if (chosenName.peek() !== found.name) return;
-  summary.value = read;
+  summary.value = answer;
   if (found.study.sampling !== "sensitivity") return;
   const shares = await nullIfRejected(readSensitivity(found.name, "succeeded"), () => {});
   if (chosenName.peek() === found.name) indices.value = shares ?? [];
@@ -113,13 +99,13 @@ export async function follow(name: string): Promise<void> {
   selectedRows.value = [];
   if (name === "") return;
   let shownCount = 0;
-  await poll.follow(
+  await poll(
     () => readStudy(name),
     async (found, isLeft) => {
       study.value = found;
       const isEnded = !isJobRunning(found.job);
       if (found.done > 0 && (isEnded || found.done > shownCount * GROWTH)) {
-        await nullIfRejected(loadRows(name), showErrorIn(problem));
+        await nullIfRejected(loadRows(name), showError);
         if (isLeft()) return false;
         shownCount = found.done;
       }
@@ -133,10 +119,7 @@ export async function follow(name: string): Promise<void> {
 
 /** Returns whether it was started. */
 export async function startNewStudy(changes: StudyChanges): Promise<boolean> {
-  problem.value = "";
-  isBusy.value = "start";
-  const started = await attempt(() => startStudy(changes));
-  isBusy.value = "";
+  const started = await perform("start", () => startStudy(changes));
   if (started === null) return false;
   void openList();
   const isHere = chosenName.peek() === started.name;
@@ -152,15 +135,8 @@ export async function cancel(): Promise<void> {
 
 /** Returns whether it was deleted; then no study is selected. */
 export async function remove(name: string): Promise<boolean> {
-  problem.value = "";
-  isBusy.value = "delete";
-  const isGone =
-    (await attempt(async () => {
-      await deleteStudy(name);
-      return true;
-    })) !== null;
-  isBusy.value = "";
-  if (!isGone) return false;
+  const isGone = await perform("delete", () => deleteStudy(name).then(() => true));
+  if (isGone === null) return false;
   await openList();
   goTo({ kind: "studies", study: "", look: {} });
   return true;
@@ -179,29 +155,22 @@ export async function selectRow(row: number): Promise<void> {
 
 const runs = new Map<string, string>();
 
-async function record(name: string, row: number): Promise<string | null> {
+async function record(name: string, row: number): Promise<string> {
   const key = `${name} ${row}`;
-  const known = runs.get(key);
-  if (known !== undefined) return known;
-  const created = await attempt(() => replayRow(name, row));
-  if (created === null) return null;
-  runs.set(key, created.run_id);
-  return created.run_id;
+  const run = runs.get(key) ?? (await replayRow(name, row)).run_id;
+  runs.set(key, run);
+  return run;
 }
 
 /** Record rows as runs: one for 3D, two for an overlay. */
 export async function showRuns(numbers: readonly number[]): Promise<void> {
   const name = chosenName.peek();
-  problem.value = "";
-  isBusy.value = "see";
-  const created: string[] = [];
-  for (const row of numbers) {
-    const run = await record(name, row);
-    if (run === null) break;
-    created.push(run);
-  }
-  isBusy.value = "";
-  if (created.length < numbers.length) return;
+  const created = await perform("see", async () => {
+    const recorded: string[] = [];
+    for (const row of numbers) recorded.push(await record(name, row));
+    return recorded;
+  });
+  if (created === null) return;
   const [first = ""] = created;
   goTo(
     created.length > 1 ? { kind: "overlay", runs: created } : { kind: "run", run: first, timeS: 0 },

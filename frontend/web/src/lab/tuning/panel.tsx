@@ -1,6 +1,5 @@
 import { useEffect, useState } from "preact/hooks";
 import { tunedFileOf } from "../../core/api/jobs";
-import { explain } from "../../core/state/actions";
 import { titleOf, usableLaws } from "../../core/state/laws";
 import { isLive, session } from "../../core/state/session";
 import { text } from "../../core/text/en";
@@ -14,8 +13,8 @@ import {
   CONTROL,
   candidates,
   findNewest,
+  isBusy,
   isOpen,
-  isStarting,
   isTuning,
   problem,
   start,
@@ -66,7 +65,11 @@ function Choice() {
           {words.stop}
         </button>
       ) : (
-        <button type="submit" class="button is-primary" disabled={law === "" || isStarting.value}>
+        <button
+          type="submit"
+          class="button is-primary"
+          disabled={law === "" || isBusy.value !== ""}
+        >
           {words.start}
         </button>
       )}
@@ -146,7 +149,7 @@ function Tune() {
       <div class="stack">
         <p class="hint">{words.about}</p>
         <Choice />
-        <ErrorLine>{problem.value === null ? "" : explain(problem.value)}</ErrorLine>
+        <ErrorLine>{problem.value}</ErrorLine>
         <TuningResult />
         <p class="hint">{words.cost}</p>
       </div>

@@ -10,8 +10,8 @@ import {
   type Tuning,
 } from "../../core/api/jobs";
 import type { Law } from "../../core/api/types";
-import { createPoll } from "../../core/jobs/poll";
 import { isJobRunning } from "../../core/jobs/progress";
+import { createWork } from "../../core/jobs/work";
 import { perform } from "../../core/state/actions";
 
 export const CONTROL = "tuning.use";
@@ -19,14 +19,11 @@ export const CONTROL = "tuning.use";
 export const isOpen = signal(false);
 export const tuning = signal<Tuning | null>(null);
 export const candidates = signal<readonly Candidate[]>([]);
-export const problem = signal<unknown>(null);
-export const isStarting = signal(false);
 
 export const isTuning = computed(() => isJobRunning(tuning.value));
 
-const poll = createPoll((error) => {
-  problem.value = error;
-});
+const work = createWork();
+export const { problem, isBusy } = work;
 
 function applyTuning(state: Tuning): void {
   const existing = candidates.peek();
@@ -36,7 +33,7 @@ function applyTuning(state: Tuning): void {
 }
 
 async function follow(id: string): Promise<void> {
-  const pollEnd = await poll.follow(
+  const pollEnd = await work.poll(
     () => readTuning(id, candidates.peek().length),
     (state) => {
       applyTuning(state);
@@ -47,39 +44,23 @@ async function follow(id: string): Promise<void> {
 }
 
 export async function start(law: Law, budget: number): Promise<void> {
-  problem.value = null;
-  isStarting.value = true;
-  try {
-    const started = await startTuning(law, budget);
-    candidates.value = [];
-    applyTuning(started);
-    void follow(started.id);
-  } catch (error) {
-    problem.value = error;
-  }
-  isStarting.value = false;
+  const started = await work.perform("start", () => startTuning(law, budget));
+  if (started === null) return;
+  candidates.value = [];
+  applyTuning(started);
+  void follow(started.id);
 }
 
 export async function stop(): Promise<void> {
   const state = tuning.peek();
-  if (state === null) return;
-  try {
-    await stopTuning(state.id);
-  } catch (error) {
-    problem.value = error;
-  }
+  if (state !== null) await work.attempt(() => stopTuning(state.id));
 }
 
 /** After a reload the page follows the newest tuning of this lab again. */
 export async function findNewest(): Promise<void> {
   if (tuning.peek() !== null) return;
-  try {
-    const [newest] = await listTunings();
-    if (newest === undefined || tuning.peek() !== null) return;
-    void follow(newest.id);
-  } catch (error) {
-    problem.value = error;
-  }
+  const [newest] = (await work.attempt(listTunings)) ?? [];
+  if (newest !== undefined && tuning.peek() === null) void follow(newest.id);
 }
 
 /** Apply the best candidate to the session: parameters of its law, or gains and the observer. */

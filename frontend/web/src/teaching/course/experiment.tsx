@@ -95,7 +95,7 @@ export function Trial({ of, exercise, onDone }: TaskProps) {
   const isOff =
     missing !== undefined ||
     isRunning ||
-    isBusy.value ||
+    isBusy.value !== "" ||
     !mayCommand.value ||
     !isPossibleOn(of, bench.value) ||
     !isOfSession(of, state) ||

@@ -19,8 +19,8 @@ import {
 } from "../../core/api/course";
 import { RefusedError } from "../../core/api/errors";
 import { readRun } from "../../core/api/runs";
-import { createReader } from "../../core/jobs/poll";
-import { explain, perform, showErrorIn } from "../../core/state/actions";
+import { createWork } from "../../core/jobs/work";
+import { explain, perform } from "../../core/state/actions";
 import { hasControl, mayCommand } from "../../core/state/control";
 import { acceptState, session } from "../../core/state/session";
 import { place } from "../../runs/list/place";
@@ -32,9 +32,8 @@ const MAX_FILE_POLLS = 60;
 
 export const exercises = signal<readonly ExerciseSummary[] | null>(null);
 export const exercise = signal<Exercise | null>(null);
-/** Reason why a request of the course was rejected; cleared by the next request. */
-export const problem = signal("");
-export const isBusy = signal(false);
+const { read, perform: attempt, ...work } = createWork(explain);
+export const { problem, isBusy } = work;
 
 /** The run of a step that is in progress, or being assessed. */
 interface StepRun {
@@ -85,21 +84,6 @@ export const resultsOf = (one: Step): readonly CriterionResult[] => {
   return one.results;
 };
 
-async function attempt<T>(request: () => Promise<T>): Promise<T | null> {
-  problem.value = "";
-  isBusy.value = true;
-  try {
-    return await request();
-  } catch (error) {
-    problem.value = explain(error);
-    return null;
-  } finally {
-    isBusy.value = false;
-  }
-}
-
-const read = createReader(showErrorIn(problem));
-
 export async function openCourse(): Promise<void> {
   problem.value = "";
   await read(listCourse, (found) => {
@@ -135,7 +119,7 @@ export async function storePlace(name: string, at: string): Promise<void> {
 
 export async function answer(of: Step, given: number | string): Promise<void> {
   const name = exercise.peek()?.name ?? "";
-  applyExercise(await attempt(() => putAnswer(name, of.name, given)));
+  applyExercise(await attempt("answer", () => putAnswer(name, of.name, given)));
 }
 
 const titleOfRun = (name: string, of: string) => `${name}/${of}`;
@@ -146,7 +130,7 @@ export async function setUp(of: Step): Promise<void> {
   problem.value = "";
   interruption.value = null;
   if (!(await perform(CONTROL_OF_LESSON, () => setUpStep(name, of.name)))) return;
-  applyExercise(await attempt(() => readExercise(name)));
+  applyExercise(await attempt("read", () => readExercise(name)));
   if (of.free.length === 0) await run(of);
 }
 
@@ -212,7 +196,7 @@ export async function follow(): Promise<void> {
     await perform(CONTROL_OF_LESSON, stopRecording);
     if (state.status === "running") await perform(CONTROL_OF_LESSON, pause);
   }
-  await attempt(() => assess(now));
+  await attempt("assess", () => assess(now));
   activeRun.value = null;
 }
 
@@ -236,14 +220,14 @@ const isFinished = (run: string): Promise<boolean> =>
 /** Tried by the server, and stored there until it is submitted. */
 export async function tryLaw(law: string): Promise<void> {
   const name = exercise.peek()?.name ?? "";
-  applyExercise(await attempt(() => putLaw(name, law)));
+  applyExercise(await attempt("law", () => putLaw(name, law)));
 }
 
 export async function submit(student: string): Promise<void> {
   const name = exercise.peek()?.name ?? "";
-  const judgement = await attempt(() => giveIn(name, student));
+  const judgement = await attempt("submit", () => giveIn(name, student));
   if (judgement === null) return;
-  applyExercise(await attempt(() => readExercise(name)));
+  applyExercise(await attempt("read", () => readExercise(name)));
 }
 
 export const restoreLab = (): Promise<boolean> => perform("session", restoreSettings);

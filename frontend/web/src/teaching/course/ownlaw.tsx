@@ -49,7 +49,7 @@ export function OwnLaw({ savedLaw, html }: { savedLaw: Exercise["law"]; html: st
         type="submit"
         class="button is-primary"
         title={words.tryHint}
-        disabled={law.trim() === "" || findFault(law) !== "" || isBusy.value}
+        disabled={law.trim() === "" || findFault(law) !== "" || isBusy.value !== ""}
       >
         {words.try}
       </button>

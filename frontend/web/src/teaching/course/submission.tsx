@@ -71,7 +71,7 @@ export function SubmissionPanel({ of, exercise, onDone }: TaskProps) {
           type="submit"
           class="button is-primary"
           title={words.submitHint}
-          disabled={missing.length > 0 || isBusy.value}
+          disabled={missing.length > 0 || isBusy.value !== ""}
         >
           {words.submit}
         </button>

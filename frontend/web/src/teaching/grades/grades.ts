@@ -44,6 +44,6 @@ export function sumOf(student: Student): { points: number; maximum: number } | n
 
 /** Grade the ungraded submissions, or all of them again. */
 export async function gradeAll(isRegrade: boolean): Promise<void> {
-  const startedJob = await results.attempt(() => gradeClass(isRegrade));
+  const startedJob = await results.perform("grade", () => gradeClass(isRegrade));
   if (startedJob !== null) await results.follow(startedJob);
 }

@@ -7,14 +7,13 @@ import { place } from "../../runs/list/place";
 import { sortEntries } from "./columns";
 
 const results = followResults("submission", readBoard);
-export const { result: board, problem, job, open: openBoard, unfollow, cancel } = results;
+export const { result: board, problem, isBusy, job, open: openBoard, unfollow, cancel } = results;
 /** Outcome of the last submission, if it already has an entry. */
 export const existingEntryKey = signal("");
 /** "column", or "-column" for descending order. */
 export const sort = signal("rank");
 /** Key of the last submission of this page. */
 export const submittedKey = signal("");
-export const isSubmitting = signal(false);
 
 export const entries = computed<readonly BoardEntry[]>(() => {
   const key = sort.value.replace(/^-/, "");
@@ -42,9 +41,7 @@ effect(() => {
 /** Submits a law to the season; false if rejected at once. */
 export async function submit(submission: Parameters<typeof submitLaw>[0]): Promise<boolean> {
   existingEntryKey.value = "";
-  isSubmitting.value = true;
-  const response = await results.attempt(() => submitLaw(submission));
-  isSubmitting.value = false;
+  const response = await results.perform("submit", () => submitLaw(submission));
   if (response === null) return false;
   submittedKey.value = response.key;
   const startedJob = response.job;
@@ -59,6 +56,6 @@ export async function submit(submission: Parameters<typeof submitLaw>[0]): Promi
 export async function measureInstalledLaws(): Promise<void> {
   existingEntryKey.value = "";
   submittedKey.value = "";
-  const startedJob = await results.attempt(measureLaws);
+  const startedJob = await results.perform("measure", measureLaws);
   if (startedJob !== null) await results.follow(startedJob);
 }

@@ -11,7 +11,7 @@ import {
   entries,
   existingEntryKey,
   hasSubmittedEntry,
-  isSubmitting,
+  isBusy,
   job,
   measureInstalledLaws,
   submit,
@@ -105,7 +105,7 @@ function Form() {
           disabled={
             law.trim() === "" ||
             findFault(law) !== "" ||
-            isSubmitting.value ||
+            isBusy.value !== "" ||
             isJobRunning(job.value)
           }
         >

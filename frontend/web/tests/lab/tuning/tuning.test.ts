@@ -73,7 +73,7 @@ beforeEach(() => {
   answers = [];
   tuning.value = null;
   candidates.value = [];
-  problem.value = null;
+  problem.value = "";
   vi.stubGlobal("fetch", async (url: URL, init: RequestInit) => {
     const path = `${url.pathname.split("/api/v1/")[1]}${url.search}`;
     const body = typeof init.body === "string" ? JSON.parse(init.body) : null;
@@ -103,7 +103,7 @@ describe("a running tuning", () => {
     });
     expect(isUnderWay.value).toBe(true);
     await vi.advanceTimersByTimeAsync(1000);
-    expect(problem.value).not.toBeNull();
+    expect(problem.value).not.toBe("");
     await vi.advanceTimersByTimeAsync(5000);
     expect(calls.slice(1).map(({ path }) => path)).toEqual([
       "jobs/abc?first=0",
@@ -111,7 +111,7 @@ describe("a running tuning", () => {
       "jobs/abc?first=2",
     ]);
     expect(candidates.value.map(({ number }) => number)).toEqual([0, 1, 2, 3]);
-    expect([isUnderWay.value, problem.value]).toEqual([false, null]);
+    expect([isUnderWay.value, problem.value]).toEqual([false, ""]);
   });
 
   it("does not start if the server rejects it, and the previous one is kept", async () => {

@@ -261,7 +261,7 @@ describe("the displayed result of a step", () => {
     calls.putAnswer.mockRejectedValueOnce(new RefusedError(422, "5 is above 1."));
     await lesson.answer(step("predict-lever"), 5);
     expect(lesson.problem.value).toContain("5 is above 1.");
-    expect(lesson.isBusy.value).toBe(false);
+    expect(lesson.isBusy.value).toBe("");
     calls.putAnswer.mockResolvedValue(course({ at: "lever" }));
     await lesson.answer(step("predict-lever"), 0.7);
     expect(lesson.problem.value).toBe("");
