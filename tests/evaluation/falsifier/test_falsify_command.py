@@ -88,21 +88,6 @@ def test_unwritable_result_file_is_rejected_before_the_search(tmp_path, monkeypa
             search(f"--{option}", place)
 
 
-def test_error_of_a_law_argument_does_not_mention_the_file(tmp_path):
-    (tmp_path / "pulse.toml").write_text(GOOD)
-    with pytest.raises(ParameterError, match=r"^law is 'missing': it must be a law"):
-        search("--law", "missing")
-
-
-@pytest.mark.exhaustive
-def test_result_of_another_search_is_not_overwritten(tmp_path):
-    (tmp_path / "pulse.toml").write_text(GOOD)
-    search("--law", "fl", "--output", "one.toml", "--seed", "1")
-    (tmp_path / "two.toml.search").write_text('{"seed": 0}\n["1e9"]\n')
-    search("--law", "fl", "--output", "two.toml", "--seed", "1")
-    assert (tmp_path / "two.toml").read_bytes() == (tmp_path / "one.toml").read_bytes()
-
-
 def test_search_is_compared_with_random_samples_seed_by_seed(tmp_path):
     (tmp_path / "pulse.toml").write_text(GOOD)
     reported = json.loads(
