@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from svsa.evaluation.campaign.journal import Journal, define_search
 from svsa.evaluation.falsifier.adversary import Adversary
 from svsa.evaluation.falsifier.description import list_attack
 from svsa.evaluation.falsifier.falsification import falsify
@@ -20,7 +21,7 @@ from svsa.runs.records.header import replace_file
 from svsa_server.jobs.progress import JobFolder
 
 _WORST, _OUTCOMES, _SCENARIO = "worst.toml", "outcomes.json", "scenario.toml"
-_STEPS = "steps.json"
+_STEPS, _SEVERITIES = "steps.json", "severities.jsonl"
 
 
 class Task(NamedTuple):
@@ -46,6 +47,7 @@ def search(folder: JobFolder, task: Task) -> bool:
         on_generation=lambda done, worst: folder.report(done, task.runs),
         on_worse=keep_worst,
         is_cancelled=folder.is_cancelled,
+        journal=Journal(folder.path / _SEVERITIES, define_search(task.adversary.law)),
     )
     folder.report(len(result.severities), task.runs)
     keep_worst(result.as_found)

@@ -12,6 +12,7 @@ import asyncio
 import contextlib
 import itertools
 import logging
+import shutil
 from collections import OrderedDict
 from collections.abc import AsyncIterator, Callable, Mapping
 from datetime import UTC, datetime
@@ -238,7 +239,7 @@ class Jobs:
         self._remove_old()
 
     def start(self, kind: Kind, title: str, work: Work, task: Any, owner: str = "") -> Job:
-        """Start a job, or queue it.
+        """Start a job, or queue it. It continues the user's latest job with the same task.
 
         Raises:
             BusyError: If the queue is full.
@@ -250,6 +251,7 @@ class Jobs:
         job = Job(kind, title, task, folder, owner)
         try:
             job.save()
+            self._continue_latest(job)
         except OSError:
             remove_job(folder)
             raise
@@ -257,6 +259,17 @@ class Jobs:
         job.begin(self._queues[kind], work)
         self._remove_old()
         return job
+
+    def _continue_latest(self, job: Job) -> None:
+        """Copy the trials of the user's latest job with the same task that was not completed."""
+        trials = (
+            [*other.folder.glob("*.jsonl")]
+            for other in self.list_all(job.kind)
+            if other.status in ("cancelled", "failed", "interrupted")
+            and (other.task, other.owner) == (job.task, job.owner)
+        )
+        for path in next(filter(None, trials), []):
+            shutil.copy(path, job.folder)
 
     def _remove_old(self) -> None:
         ended = [job for job in self._kept.values() if not job.is_under_way]

@@ -29,10 +29,10 @@ TASKS: dict[str, Any] = {
 }
 """Tasks that describe a result. Other kinds have results of their own, without the task."""
 _NEXT = {
-    "tuning": "its finished candidates are saved. Start it again: with the same seed it repeats"
-    " them.",
-    "falsification": "the worst case so far is saved. Start it again: with the same seed it repeats"
-    " the search.",
+    "tuning": "its finished candidates are saved. Start it again with the same settings to continue"
+    " it.",
+    "falsification": "its runs and the worst case are saved. Start it again with the same settings"
+    " to continue it.",
     "study": "its finished rows are saved. Start the study of this name again to continue it.",
     "submission": "laws that were measured have their entries. Submit the law, or start the"
     " measurement, again.",

@@ -3,9 +3,9 @@
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from svsa.evaluation.campaign.journal import Journal, read_lines
-from svsa.evaluation.tuning.file import describe_candidate, format_tuned
-from svsa.evaluation.tuning.tuner import Candidate, tune
+from svsa.evaluation.campaign.journal import Journal, define_search, read_lines
+from svsa.evaluation.tuning.file import format_tuned
+from svsa.evaluation.tuning.tuner import tune
 from svsa.runs.configuration import Design
 from svsa_server.jobs.progress import JobFolder
 
@@ -24,20 +24,15 @@ class Task(NamedTuple):
 
 def search(folder: JobFolder, task: Task) -> bool:
     """Tune a law in a worker; return whether the budget was used up."""
-    journal = Journal(folder.path / _CANDIDATES)
-
-    def note(candidate: Candidate) -> None:
-        journal.write(describe_candidate(candidate))
-        folder.report(candidate.number + 1, task.budget + 1)
-
     tuned = tune(
         task.law,
         budget=task.budget,
         seed=task.seed,
         held=task.held,
         present=task.present,
-        on_candidate=note,
+        on_candidate=lambda tried: folder.report(tried.number + 1, task.budget + 1),
         is_cancelled=folder.is_cancelled,
+        journal=Journal(folder.path / _CANDIDATES, define_search(task.law)),
     )
     (folder.path / _FILE).write_text(format_tuned(tuned), encoding="utf-8")
     return tuned.is_complete
@@ -45,7 +40,7 @@ def search(folder: JobFolder, task: Task) -> bool:
 
 def read_candidates(folder: Path) -> list[dict[str, Any]]:
     """Read the candidates so far, and those on the validation trials."""
-    return read_lines(folder / _CANDIDATES)
+    return [line for line in read_lines(folder / _CANDIDATES) if "stage" in line]
 
 
 def find_file(folder: Path) -> Path | None:

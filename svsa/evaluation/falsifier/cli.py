@@ -59,13 +59,9 @@ def search_command(
     check_writable("--output", path)
     journal = open_search(path, adversary, seed, "cma")
     with show_progress(_messages, get_title(adversary.law), runs) as report:
+        on_generation = _report_worst(adversary, report)
         falsified = find(
-            adversary,
-            runs=runs,
-            seed=seed,
-            known=[float(text) for generation in journal.known for text in generation],
-            on_generation=_report_worst(adversary, report),
-            on_runs=lambda severities: journal.write([*map(repr, severities)]),
+            adversary, runs=runs, seed=seed, on_generation=on_generation, journal=journal
         )
     scenario = falsified.scenario
     write_scenario(path, scenario)

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from svsa.errors import SvsaError
+from svsa.evaluation.campaign.journal import Journal
 from svsa.evaluation.falsifier.adversary import Adversary
 from svsa.evaluation.falsifier.description import describe_outcome, describe_worst
 from svsa.evaluation.falsifier.measure import Measured, measure_attacks
@@ -130,23 +131,22 @@ class _EndedError(Exception):
 class _Search:
     """The runs of a search, counted up to its limit; known ones are not repeated.
 
-    `on_worse` is called with number and attack of each run that is worse than all previous ones;
-    `on_runs` with the severities of runs that were not known.
+    `on_worse` is called with number and attack of each run that is worse than all previous ones.
     """
 
     def __init__(
         self,
         adversary: Adversary,
         runs: int,
-        known: Sequence[float] | np.ndarray,
+        known: Sequence[float],
         on_worse: Callable[[int, Attack, float], None],
-        on_runs: Callable[[list[float]], None],
+        journal: Journal,
     ) -> None:
         self.adversary, self.base = adversary, adversary.build_base()
         self.severities: list[float] = []
         self.worst: tuple[int, Attack] | None = None
         self._runs, self._known = runs, np.asarray(known, dtype=float)
-        self._on_worse, self._on_runs = on_worse, on_runs
+        self._on_worse, self._journal = on_worse, journal
 
     def judge(self, shares: np.ndarray) -> np.ndarray:
         """Compute the severity of each attack of a generation.
@@ -169,7 +169,7 @@ class _Search:
         is_fault = bool(np.isposinf(severity[worst]))
         self.severities += severity.tolist()[: worst + 1 if is_fault else None]
         if len(self.severities) > len(self._known):
-            self._on_runs(self.severities[max(done, len(self._known)) :])
+            self._journal.write([*map(repr, self.severities[max(done, len(self._known)) :])])
         if is_fault or len(self.severities) >= self._runs:
             raise _EndedError
         return severity
@@ -187,9 +187,9 @@ def falsify(
     known: Sequence[float] | np.ndarray = (),
     on_generation: Callable[[int, float], None] = lambda done, worst: None,
     on_worse: Callable[[LoadScenario], None] = lambda scenario: None,
-    on_runs: Callable[[list[float]], None] = lambda severities: None,
     is_cancelled: Callable[[], bool] = lambda: False,
     is_shrunk: bool = True,
+    journal: Journal | None = None,
 ) -> Falsified:
     """Search for the attack with the largest cost, and simplify it with the same effect.
 
@@ -206,9 +206,9 @@ def falsify(
         on_generation: Called after each generation with the number of runs and the largest
             severity.
         on_worse: Called with each attack that is worse than all previous ones, as a scenario.
-        on_runs: Called with the severities of each generation that was not known.
         is_cancelled: Called before each generation; True ends the search as Ctrl-C does.
         is_shrunk: Whether the attack is simplified and its neighborhood is run.
+        journal: File of the same search: its runs are known, and others are added to it.
 
     Returns:
         The worst attack of the search.
@@ -226,7 +226,9 @@ def falsify(
         search = method, seed, number, number
         on_worse(_describe(adversary, attack, adversary.duration_s, (text, text), search))
 
-    state = _Search(adversary, runs, known, report_worse, on_runs)
+    journal = journal or Journal(None)
+    finished = [*known, *(float(text) for generation in journal.known for text in generation)]
+    state = _Search(adversary, runs, finished, report_worse, journal)
     nothing = state.measure([Attack((), {})])
     if not np.isfinite(nothing.severity[0]):
         text = describe_outcome(nothing, 0, adversary.cost)

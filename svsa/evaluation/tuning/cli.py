@@ -17,7 +17,6 @@ INTERRUPTED = 130
 RANKING_BUDGET, BUDGET = 2000, 128
 
 if TYPE_CHECKING:
-    from svsa.evaluation.campaign.journal import Journal
     from svsa.evaluation.tuning.tuner import Candidate, Tuned
 
 
@@ -82,7 +81,7 @@ def tune(
     definition = define_search(name, **started)
     journal = Journal(path and path.with_name(path.name + ".search"), definition)
     numbers = {"budget": budget or BUDGET, "trials": trials, "validation": validation, "seed": seed}
-    tuned = _search(journal, name, held=held, present=present, **numbers)
+    tuned = _search(name, held=held, present=present, journal=journal, **numbers)
     if path is None:
         typer.echo(json.dumps(describe_tuned(tuned), indent=2))
     else:
@@ -115,7 +114,7 @@ def _tune_all(budget: int, trials: int, validation: int, seed: int, output: Path
         folder.mkdir(parents=True, exist_ok=True)
         journal = Journal(folder / f"{law}.{budget}-{trials}-{seed}.jsonl")
         numbers = {"budget": budget, "trials": trials, "validation": validation, "seed": seed}
-        tuned = _search(journal, law, **numbers)
+        tuned = _search(law, journal=journal, **numbers)
         if not tuned.is_complete:
             raise typer.Exit(INTERRUPTED)
         write_tuned_law(folder, build_tuned_law(tuned))
@@ -129,22 +128,19 @@ def _tune_all(budget: int, trials: int, validation: int, seed: int, output: Path
         )
 
 
-def _search(journal: "Journal", law: str, budget: int, **arguments: Any) -> "Tuned":
-    """Continue or begin a search, with its progress on a bar and its candidates in a journal."""
-    from svsa.evaluation.tuning.file import describe_candidate, read_candidate
+def _search(law: str, budget: int, **arguments: Any) -> "Tuned":
+    """Continue or begin a search, with its progress on a bar."""
     from svsa.evaluation.tuning.tuner import tune
 
-    known, best = [*map(read_candidate, journal.known)], [float("inf")]
-    title = get_title(law)
+    title, best = get_title(law), float("inf")
     with show_progress(_messages, title, budget, "candidates") as report:
 
         def note(candidate: "Candidate") -> None:
-            if candidate.stage != "validation" and candidate.number >= len(known):
-                journal.write(describe_candidate(candidate))
-            best[0] = min(best[0], candidate.judgment.cost)
-            report(candidate.number, f"{title}: best {best[0]:.4g}")
+            nonlocal best
+            best = min(best, candidate.judgment.cost)
+            report(candidate.number, f"{title}: best {best:.4g}")
 
-        return tune(law, budget=budget, known=known, on_candidate=note, **arguments)
+        return tune(law, budget=budget, on_candidate=note, **arguments)
 
 
 def _save(tuned: "Tuned", path: Path) -> None:

@@ -6,8 +6,7 @@ import numpy
 import scipy
 
 from svsa.control.installed import has_own_parameters
-from svsa.evaluation.tuning.judge import Judgment
-from svsa.evaluation.tuning.tuner import Candidate, Tuned
+from svsa.evaluation.tuning.tuner import Tuned, describe_candidate
 from svsa.inputs.extras import __version__
 from svsa.runs.design_file import format_design
 
@@ -59,22 +58,3 @@ def describe_tuned(tuned: Tuned) -> dict[str, Any]:
         "candidates": [describe_candidate(candidate) for candidate in tuned.candidates],
         "finals": [describe_candidate(candidate) for candidate in tuned.finals],
     }
-
-
-def describe_candidate(candidate: Candidate) -> dict[str, Any]:
-    """Convert a candidate to JSON; infinite values, as after a fault, are None."""
-    judged = {
-        name: None if value is not None and abs(value) == float("inf") else value
-        for name, value in candidate.judgment._asdict().items()
-    }
-    values = list(candidate.values)
-    return {"number": candidate.number, "stage": candidate.stage, "values": values} | judged
-
-
-def read_candidate(written: dict[str, Any]) -> Candidate:
-    """Read a candidate before validation from the JSON of `describe_candidate`."""
-    judged = {name: written[name] for name in Judgment._fields}
-    if judged["torque_variation_nm_per_s"] is None:
-        judged["torque_variation_nm_per_s"] = float("inf")
-    values = tuple(written["values"])
-    return Candidate(written["number"], written["stage"], values, Judgment(**judged))

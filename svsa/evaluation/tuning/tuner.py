@@ -9,6 +9,7 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 
 from svsa.control.installed import check_installed
+from svsa.evaluation.campaign.journal import Journal
 from svsa.evaluation.search import search
 from svsa.evaluation.trials import build_set
 from svsa.evaluation.tuning.judge import Judgment, TrialSet, judge
@@ -33,6 +34,25 @@ class Candidate(NamedTuple):
     stage: Stage
     values: tuple[float, ...]
     judgment: Judgment
+
+
+def describe_candidate(candidate: Candidate) -> dict[str, Any]:
+    """Convert a candidate to JSON; infinite values, as after a fault, are None."""
+    judged = {
+        name: None if value is not None and abs(value) == float("inf") else value
+        for name, value in candidate.judgment._asdict().items()
+    }
+    values = list(candidate.values)
+    return {"number": candidate.number, "stage": candidate.stage, "values": values} | judged
+
+
+def read_candidate(written: dict[str, Any]) -> Candidate:
+    """Read a candidate before validation in the JSON of `describe_candidate`."""
+    judged = {name: written[name] for name in Judgment._fields}
+    if judged["torque_variation_nm_per_s"] is None:
+        judged["torque_variation_nm_per_s"] = float("inf")
+    values = tuple(written["values"])
+    return Candidate(written["number"], written["stage"], values, Judgment(**judged))
 
 
 class Problem(NamedTuple):
@@ -113,6 +133,7 @@ def tune(
     on_candidate: Callable[[Candidate], None] = lambda _: None,
     is_cancelled: Callable[[], bool] = lambda: False,
     problem: Problem = JOINT,
+    journal: Journal | None = None,
 ) -> Tuned:
     """Search a law's parameters for the minimum cost, see `svsa.evaluation.tuning.judge`.
 
@@ -133,6 +154,7 @@ def tune(
         is_cancelled: Called before each candidate but the first; if it returns True, and at Ctrl-C,
             the best so far is returned.
         problem: Trials and cost; by default those of a single joint.
+        journal: File of the same search: its candidates are known, and others are added to it.
 
     Returns:
         The candidates with their costs, and the design with the best parameters.
@@ -150,7 +172,16 @@ def tune(
     space, design = build_space(law, held), present or load_prototype()
     if held:
         design = space.set_design(design, space.read_values(design))
-    state = _Search(space, design, budget, trials, list(known), on_candidate, is_cancelled, problem)
+    journal = journal or Journal(None)
+    journal.known = [line for line in journal.known if line["stage"] != "validation"]
+    finished = [*known, *map(read_candidate, journal.known)]
+
+    def note(candidate: Candidate) -> None:
+        if candidate.stage == "validation" or candidate.number >= len(finished):
+            journal.write(describe_candidate(candidate))
+        on_candidate(candidate)
+
+    state = _Search(space, design, budget, trials, finished, note, is_cancelled, problem)
     finals: list[Candidate] = []
     try:
         state.run(seed)

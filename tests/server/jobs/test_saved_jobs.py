@@ -1,5 +1,6 @@
 """Jobs of a killed server are listed as interrupted; damaged files do not stop the start."""
 
+import asyncio
 import json
 import os
 import signal
@@ -17,6 +18,7 @@ from svsa_server.jobs.queue import MAX_KEPT, Job, Jobs
 from svsa_server.jobs.saved import FILE, JobFolders
 from svsa_server.schemas.evaluation.job import describe_job
 from tests.lab import run_lab
+from tests.server.jobs.test_jobs import count
 from tests.waiting import follow
 
 TASKS = {
@@ -122,6 +124,24 @@ def test_old_jobs_are_removed_and_a_second_server_leaves_the_folder(tmp_path: Pa
     first.close()
     (tmp_path / "unusable").write_text("")
     assert JobFolders(tmp_path / "unusable").saved == []
+
+
+@pytest.mark.parametrize("status", ["interrupted", "done"])
+def test_same_search_of_a_user_continues_unless_it_was_completed(
+    tmp_path: Path, status: str
+) -> None:
+    (save(tmp_path, "tuning", status).folder / "trials.jsonl").write_text("0\n")
+    same = TASKS["tuning"]
+    tasks = ((same, "p-1"), (same, "p-2"), (same._replace(seed=8), "p-1"))
+
+    async def start() -> list[bool]:
+        jobs = Jobs({"tuning": 4}, path=tmp_path)
+        begun = [jobs.start("tuning", "Again", count, task, owner) for task, owner in tasks]
+        jobs.drop()
+        jobs.close()
+        return [(job.folder / "trials.jsonl").exists() for job in begun]
+
+    assert asyncio.run(start()) == [status == "interrupted", False, False]
 
 
 @pytest.mark.exhaustive
