@@ -12,11 +12,12 @@ from svsa.evaluation.actuator_scale import (
     measure_scale,
     scale_stiffness,
 )
+from svsa.evaluation.campaign.results_file import write_results_file
 from svsa.evaluation.metrics import compute_metrics, find_held, summarize_result
 from svsa.evaluation.ranking.cli import _read_known
 from svsa.evaluation.ranking.entry import DECLARED, build_entry
 from svsa.evaluation.ranking.measure import TrialSet, run_scenario
-from svsa.evaluation.ranking.results import load_published, write_results
+from svsa.evaluation.ranking.results import load_published
 from svsa.evaluation.ranking.scenarios import build_fixed_scenarios, build_link_steps
 from svsa.evaluation.ranking.test_set import build_test_set
 from svsa.evaluation.trials import DURATION_S, LOAD_S, build_rest
@@ -102,7 +103,7 @@ def test_trials_of_an_actuator_equal_single_runs():
 def test_results_file_belongs_to_one_actuator(tmp_path):
     published, path = load_published(), tmp_path / "results.json"
     assert published.actuator == "svsa"
-    write_results(path, published)
+    write_results_file(path, published)
     assert _read_known(path, published.seed, published.trials, "svsa") == published.rows
     with pytest.raises(ParameterError, match="has the actuator svsa"):
         _read_known(path, published.seed, published.trials, "qbmove")

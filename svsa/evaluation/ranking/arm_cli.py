@@ -4,12 +4,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from pydantic import ValidationError
 from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.table import Table
 
 from svsa.errors import ParameterError, Violation
+from svsa.evaluation.campaign.results_file import read_results_file, write_results_file
 from svsa.evaluation.progress_bar import show_progress
 from svsa.inputs.output_file import check_writable
 
@@ -73,7 +73,7 @@ def rank_arm(
 
         for results in measure_arm_rows(chosen, protocol, known, report):
             if save is not None:
-                save.write_text(results.model_dump_json(indent=1) + "\n", encoding="utf-8")
+                write_results_file(save, results)
     if as_json:
         typer.echo(results.model_dump_json(indent=1))
     elif markdown:
@@ -89,11 +89,7 @@ def _read_known(save: Path | None, protocol: "ArmProtocol") -> "tuple[ArmRow, ..
 
     if save is None or not save.exists():
         return ()
-    try:
-        kept = ArmResults.model_validate_json(save.read_bytes())
-    except ValidationError as error:
-        bound = f"a file that svsa ranking arm --save writes ({error.error_count()} errors)"
-        raise ParameterError(Violation("--save", save, "", bound)) from None
+    kept = read_results_file(ArmResults, save, "svsa ranking arm --save", "--save")
     return kept.rows if kept.protocol == protocol else ()
 
 

@@ -9,8 +9,9 @@ from rich.console import Console
 
 from svsa.control.installed import PAPERS_LAW, check_installed, list_law_names
 from svsa.errors import ParameterError, Violation
+from svsa.evaluation.campaign.results_file import write_results_file
 from svsa.evaluation.progress_bar import show_progress
-from svsa.evaluation.ranking.bench_runs import BenchRuns, read_bench_runs, write_bench_runs
+from svsa.evaluation.ranking.bench_runs import BenchRuns, read_bench_runs
 from svsa.evaluation.ranking.bench_table import build_table, format_bench
 from svsa.evaluation.ranking.measure_bench import measure_on_bench
 from svsa.runs.paper import BENCH_FIGURES
@@ -47,7 +48,7 @@ def bench(
         runs = shown.choose(tuple(dict.fromkeys([comparison, *(laws or shown.laws)])))
         runs = runs.changed(runs=tuple(run for run in runs.runs if run.figure in figures))
     if save is not None:
-        write_bench_runs(save, kept.renew(runs) if kept else runs)
+        write_results_file(save, kept.renew(runs) if kept else runs)
     if as_json:
         print(json.dumps(runs.to_json(comparison), indent=2))
     elif markdown:

@@ -8,9 +8,8 @@ from functools import cache
 from pathlib import Path
 from typing import Any, Self
 
-from pydantic import ValidationError
-
 from svsa.errors import ParameterError, Violation
+from svsa.evaluation.campaign.results_file import read_results_file
 from svsa.evaluation.ranking.row import RecoveryErrors
 from svsa.inputs.checked import Checked, quantity
 from svsa.runs.paper import BENCH_FIGURES
@@ -102,21 +101,8 @@ class BenchRuns(Checked):
 
 
 def read_bench_runs(path: Path) -> BenchRuns:
-    """Read a file of `svsa ranking bench --save`.
-
-    Raises:
-        ParameterError: If it is not such a file.
-    """
-    try:
-        return BenchRuns.model_validate_json(path.read_bytes())
-    except (OSError, ValidationError) as error:
-        bound = f"a file that svsa ranking bench --save writes ({error})"
-        raise ParameterError(Violation("results", path, "", bound)) from None
-
-
-def write_bench_runs(path: Path, runs: BenchRuns) -> None:
-    """Write runs as JSON."""
-    path.write_text(runs.model_dump_json(indent=1) + "\n", encoding="utf-8")
+    """Read the runs of `svsa ranking bench`; raises as `read_results_file`."""
+    return read_results_file(BenchRuns, path, "svsa ranking bench --save")
 
 
 @cache

@@ -13,6 +13,7 @@ from svsa.actuators.installed import get_mechanism
 from svsa.actuators.parameters import SVSA
 from svsa.errors import ParameterError, Violation
 from svsa.evaluation.actuator_scale import REFERENCE_NM_PER_RAD, measure_scale, scale_stiffness
+from svsa.evaluation.campaign.results_file import write_results_file
 from svsa.evaluation.progress_bar import show_progress
 from svsa.evaluation.ranking.bench_runs import load_published_bench_runs
 from svsa.evaluation.ranking.entry import build_entry, get_entry_title, list_entry_keys
@@ -22,7 +23,6 @@ from svsa.evaluation.ranking.results import (
     load_published,
     measure_entries,
     read_results,
-    write_results,
 )
 from svsa.evaluation.ranking.row import Row
 from svsa.evaluation.ranking.scenarios import PUBLIC_SEED
@@ -78,7 +78,7 @@ def run_ranking(
 
         for results in measure_entries(keys, seed, trials, known, report, actuator):
             if save is not None:
-                write_results(save, results)
+                write_results_file(save, results)
     if results is not None:
         _print(results, as_json, markdown)
 

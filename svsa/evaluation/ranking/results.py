@@ -6,11 +6,11 @@ from pathlib import Path
 from typing import Self
 
 import numpy as np
-from pydantic import ValidationError
 
 from svsa.actuators.parameters import SVSA
 from svsa.control.installed import PAPERS_LAW
 from svsa.errors import ParameterError, Violation
+from svsa.evaluation.campaign.results_file import read_results_file
 from svsa.evaluation.metrics import HELD
 from svsa.evaluation.ranking.entry import build_entry
 from svsa.evaluation.ranking.measure import TrialSet, measure_entry
@@ -177,23 +177,9 @@ def measure_entries(
         yield Results.build(list(rows.values()), seed, trials, actuator)
 
 
-def write_results(path: Path, results: Results) -> None:
-    """Write results as JSON."""
-    path.write_text(results.model_dump_json(indent=1) + "\n", encoding="utf-8")
-
-
 def read_results(path: Path) -> Results:
-    """Read a file of `write_results`.
-
-    Raises:
-        ParameterError: If it is not such a file.
-    """
-    try:
-        return Results.model_validate_json(path.read_bytes())
-    except (OSError, ValidationError) as error:
-        reason = str(error).partition("\n")[0]
-        bound = f"a file that svsa ranking run --save writes ({reason})"
-        raise ParameterError(Violation("results", path, "", bound)) from None
+    """Read the results of `svsa ranking run`; raises as `read_results_file`."""
+    return read_results_file(Results, path, "svsa ranking run --save")
 
 
 @cache

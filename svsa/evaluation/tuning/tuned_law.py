@@ -4,9 +4,8 @@ from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
-from pydantic import ValidationError
-
 from svsa.errors import ParameterError, Violation
+from svsa.evaluation.campaign.results_file import read_results_file, write_results_file
 from svsa.evaluation.tuning.judge import find_noise_limit
 from svsa.evaluation.tuning.search_space import build_space
 from svsa.evaluation.tuning.tuner import Tuned
@@ -92,8 +91,7 @@ def build_tuned_law(tuned: Tuned) -> TunedLaw:
 def write_tuned_law(folder: Path, tuned: TunedLaw) -> None:
     """Write LAW.json into a folder."""
     folder.mkdir(parents=True, exist_ok=True)
-    text = tuned.model_dump_json(indent=1) + "\n"
-    (folder / f"{tuned.law}.json").write_text(text, encoding="utf-8")
+    write_results_file(folder / f"{tuned.law}.json", tuned)
 
 
 def list_tuned_laws(folder: Path = FOLDER) -> Iterator[TunedLaw]:
@@ -103,11 +101,7 @@ def list_tuned_laws(folder: Path = FOLDER) -> Iterator[TunedLaw]:
         ParameterError: If a file is invalid.
     """
     for path in sorted(folder.glob("*.json")):
-        try:
-            yield TunedLaw.model_validate_json(path.read_bytes())
-        except (OSError, ValidationError) as error:
-            bound = f"a file that svsa tune --all writes ({error})"
-            raise ParameterError(Violation("tuned law", path, "", bound)) from None
+        yield read_results_file(TunedLaw, path, "svsa tune --all", "tuned law")
 
 
 @cache

@@ -9,13 +9,13 @@ from typer.testing import CliRunner
 import svsa
 from svsa.cli import app
 from svsa.errors import Fault, FaultError
+from svsa.evaluation.campaign.results_file import write_results_file
 from svsa.evaluation.ranking.bench_runs import (
     NUMBERS,
     BenchRun,
     BenchRuns,
     load_published_bench_runs,
     read_bench_runs,
-    write_bench_runs,
 )
 from svsa.evaluation.ranking.bench_table import build_section
 from svsa.evaluation.ranking.measure_bench import measure_on_bench, measure_run
@@ -82,7 +82,7 @@ def test_reported_progress_only_increases(played):
 def test_saved_results_are_updated_and_shown_again(played, tmp_path):
     path = tmp_path / "runs.json"
     call("ndobc", "--save", str(path))
-    write_bench_runs(path, read_bench_runs(path).renew(BenchRuns(runs=(
+    write_results_file(path, read_bench_runs(path).renew(BenchRuns(runs=(
         build_run("pid", "6a", PAPERS), build_run("fl", "6b", PAPERS),
     ))))  # fmt: skip
     call("fl", "--figure", "6B", "--save", str(path))

@@ -7,8 +7,9 @@ from typer.testing import CliRunner
 
 import svsa
 from svsa.cli import app
+from svsa.evaluation.campaign.results_file import write_results_file
 from svsa.evaluation.ranking.entry import DECLARED
-from svsa.evaluation.ranking.results import load_published, read_results, write_results
+from svsa.evaluation.ranking.results import load_published, read_results
 from svsa.evaluation.ranking.table import HEADINGS
 
 
@@ -47,7 +48,7 @@ def test_row_is_measured_into_the_file_and_others_are_kept(tmp_path, monkeypatch
     kept = read_results(path)
     assert ([row.key for row in kept.rows], kept.trials, kept.seed) == ([DECLARED], 2, 9)
     marked = kept.changed(rows=(kept.rows[0].changed(version="before"),))
-    write_results(path, marked)
+    write_results_file(path, marked)
     run(*common)
     found = read_results(path)
     assert {row.key for row in found.rows} == {DECLARED, "fl"}

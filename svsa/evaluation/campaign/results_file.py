@@ -1,0 +1,29 @@
+"""Results of a campaign in a JSON file, to which a command adds rows."""
+
+from pathlib import Path
+from typing import TypeVar
+
+from pydantic import BaseModel, ValidationError
+
+from svsa.errors import ParameterError, Violation
+from svsa.runs.records.header import replace_file
+
+M = TypeVar("M", bound=BaseModel)
+
+
+def read_results_file(kind: type[M], path: Path, command: str, name: str = "results") -> M:
+    """Read the results of a command.
+
+    Raises:
+        ParameterError: If the command does not write such a file; `name` is that of the setting.
+    """
+    try:
+        return kind.model_validate_json(path.read_bytes())
+    except (OSError, ValidationError) as error:
+        bound = f"a file that {command} writes ({str(error).partition(chr(10))[0]})"
+        raise ParameterError(Violation(name, path, "", bound)) from None
+
+
+def write_results_file(path: Path, results: BaseModel) -> None:
+    """Write results; an interruption leaves the former ones."""
+    replace_file(path, (results.model_dump_json(indent=1) + "\n").encode())
