@@ -42,11 +42,7 @@ LOAD_S, DURATION_S = 2.0, 6.0
 REST_BEGIN_S = 1.0
 """Time from which the torque at rest is measured, s."""
 REST_STIFFNESSES = (12.0, 20.0, 35.0, 60.0)
-_DAMPINGS = (
-    "link_damping_nms_per_rad",
-    "motor1_damping_nms_per_rad",
-    "motor2_damping_nms_per_rad",
-)
+_DAMPINGS = ("link_damping_nms_per_rad", "motor1_damping_nms_per_rad", "motor2_damping_nms_per_rad")
 
 
 def start_generator(key: int, number: int) -> np.random.Generator:

@@ -6,12 +6,7 @@ import pytest
 import svsa
 from svsa.actuators.installed import get_mechanism, list_mechanism_names
 from svsa.errors import ParameterError
-from svsa.evaluation.actuator_scale import (
-    RATES,
-    build_scenario_run,
-    measure_scale,
-    scale_stiffness,
-)
+from svsa.evaluation.actuator_scale import RATES, build_scenario_run, measure_scale, scale_stiffness
 from svsa.evaluation.campaign.results_file import write_results_file
 from svsa.evaluation.metrics import compute_metrics, find_held, summarize_result
 from svsa.evaluation.ranking.cli import _read_known

@@ -53,11 +53,7 @@ def test_command_prints_the_map_as_json():
 
 @pytest.mark.parametrize(
     "arguments",
-    [
-        ["arm-map", "fl", "--plot"],
-        ["arm-collision", "--plot"],
-        ["ranking", "arm", "fl", "--save"],
-    ],
+    [["arm-map", "fl", "--plot"], ["arm-collision", "--plot"], ["ranking", "arm", "fl", "--save"]],
 )
 def test_file_that_cannot_be_written_is_rejected_at_once(arguments, tmp_path):
     answer = CliRunner().invoke(app, [*arguments, str(tmp_path / "missing" / "file.png")])

@@ -20,8 +20,7 @@ if TYPE_CHECKING:
     from svsa.evaluation.falsifier.scenario import LoadScenario
 
 falsify = typer.Typer(
-    no_args_is_help=True,
-    help="Search for the worst load of a law, and simplify it.",
+    no_args_is_help=True, help="Search for the worst load of a law, and simplify it."
 )
 _messages = Console(stderr=True)
 INTERRUPTED = 130

@@ -12,11 +12,7 @@ from svsa.evaluation.studies.tables import format_metric, format_share, format_u
 from svsa.simulation.plant.loads import Load
 
 BODIES = ("the link", "motor 1", "motor 2")
-NUMBERS = {
-    "duration_s": "{:g} s long",
-    "frequency_hz": "{:g} Hz",
-    "phase_rad": "phase {:g} rad",
-}
+NUMBERS = {"duration_s": "{:g} s long", "frequency_hz": "{:g} Hz", "phase_rad": "phase {:g} rad"}
 
 
 def format_run_number(template: str, value: float) -> str:

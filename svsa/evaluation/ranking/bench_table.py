@@ -84,10 +84,7 @@ def build_section(runs: BenchRuns, law: str) -> list[str]:
     """Build the section of a law's page compared with NDOBC; empty without results."""
     if law not in runs.laws:
         return []
-    lines = [
-        f"| on the emulator, through CAN | {get_title(law)} | NDOBC |",
-        "| --- | --- | --- |",
-    ]
+    lines = [f"| on the emulator, through CAN | {get_title(law)} | NDOBC |", "| --- | --- | --- |"]
     lines += [
         f"| Figure {run.figure.upper()}: {name} | {format_run_number(run, number)}"
         f" | {format_run_number(baseline, number)} |"

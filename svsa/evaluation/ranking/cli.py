@@ -18,12 +18,7 @@ from svsa.evaluation.progress_bar import show_progress
 from svsa.evaluation.ranking.bench_runs import load_published_bench_runs
 from svsa.evaluation.ranking.entry import build_entry, get_entry_title, list_entry_keys
 from svsa.evaluation.ranking.measure import TRIALS
-from svsa.evaluation.ranking.results import (
-    Results,
-    load_published,
-    measure_entries,
-    read_results,
-)
+from svsa.evaluation.ranking.results import Results, load_published, measure_entries, read_results
 from svsa.evaluation.ranking.row import Row
 from svsa.evaluation.ranking.scenarios import PUBLIC_SEED
 from svsa.evaluation.ranking.table import HEADINGS, build_cells, format_markdown

@@ -105,10 +105,7 @@ def build_law_page(results: Results, bench: BenchRuns, name: str, margins: str) 
                     *(format_p(results.get_rank(row.key).p_value) for row in shown),
                 ),
                 ("largest load [N·m]", *(f"{row.largest_load_nm:g}" for row in shown)),
-                (
-                    "torque at rest, rms [N·m]",
-                    *(format_number(row.noise.rms_nm) for row in shown),
-                ),
+                ("torque at rest, rms [N·m]", *(format_number(row.noise.rms_nm) for row in shown)),
                 (
                     "torque variation at rest [N·m/s]",
                     *(format_number(row.noise.variation_nm_per_s) for row in shown),

@@ -116,10 +116,7 @@ def save_law(results: Results, key: str, path: Path) -> None:
     rig.set_ylabel("Position error [°]")
     rig.legend(fontsize=8)
     trials.set(
-        xscale="log",
-        ylim=(0.0, 1.0),
-        xlabel="rms position error [°]",
-        title="Share of trials",
+        xscale="log", ylim=(0.0, 1.0), xlabel="rms position error [°]", title="Share of trials"
     )
     trials.title.set_fontsize(10)
     trials.grid(alpha=0.25, which="both")

@@ -157,10 +157,7 @@ def _build_turn(degrees: int) -> FixedScenario:
 def _build_repetitive() -> FixedScenario:
     """Build the motion with periodic loads of equal period, measured from the eighth period on."""
     title = "Repeating load, eighth to twelfth period"
-    tracks = {
-        "sine": (SineLoad, {"frequency_hz": 1.0}),
-        "mass": (MassLoad, {}),
-    }
+    tracks = {"sine": (SineLoad, {"frequency_hz": 1.0}), "mass": (MassLoad, {})}
     variants = []
     for (kind, (load, values)), sign in product(tracks.items(), SIGNS):
         torque = {"torque_nm": (1.5 * sign, 0.0, 0.0)} if kind == "sine" else {}

@@ -97,12 +97,7 @@ def _check_cluster(scheduler: str, workers: int | None) -> None:
         raise ParameterError(Violation("--workers", workers, "", bound))
 
 
-def _run(
-    stored: "StoredStudy",
-    workers: int | None,
-    scheduler: str | None,
-    report: Report,
-) -> bool:
+def _run(stored: "StoredStudy", workers: int | None, scheduler: str | None, report: Report) -> bool:
     """Run the missing part, here or on a cluster; return whether the study is complete."""
     from svsa.evaluation.studies.execution import WORKERS, run_study
 

@@ -81,12 +81,7 @@ def draw_distributions(study: Study, rows: pa.Table) -> Picture:
             own = select_rows(rows, LAW, law)
             values = np.sort(own.filter(pa.compute.field("fault").is_null())[name].to_numpy())
             shares = 100.0 * np.arange(1, len(values) + 1) / max(len(own), 1)
-            axes.step(
-                convert_shown(name, values),
-                shares,
-                where="post",
-                **style_law(law),
-            )
+            axes.step(convert_shown(name, values), shares, where="post", **style_law(law))
         label_axes(axes, "Runs below [%]")
         axes.set_xlabel(f"{format_metric(name)} [{format_unit(name)}]")
         axes.set_xscale("log")
@@ -189,11 +184,7 @@ def find_worst(rows: pa.Table, metrics: Sequence[str], count: int = WORST) -> li
     """
     metric = PEAK if PEAK in metrics else metrics[0]
     order = rows.append_column("whole", rows["fault"].is_null()).sort_by(
-        [
-            ("whole", "ascending"),
-            ("fault_tick", "ascending"),
-            (metric, "descending"),
-        ]
+        [("whole", "ascending"), ("fault_tick", "ascending"), (metric, "descending")]
     )
     return order[ROW].to_pylist()[:count]
 

@@ -26,8 +26,7 @@ def tune(
         bool, typer.Option("--all", help="Tune all installed laws for the ranking.")
     ] = False,
     budget: Annotated[
-        int | None,
-        typer.Option(min=1, help="Number of candidates; default: 128, with --all 2000."),
+        int | None, typer.Option(min=1, help="Number of candidates; default: 128, with --all 2000.")
     ] = None,
     trials: Annotated[int, typer.Option(min=1, help="Training trials of each candidate.")] = 128,
     validation: Annotated[

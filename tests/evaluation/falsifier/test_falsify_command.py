@@ -8,11 +8,7 @@ from typer.testing import CliRunner
 from svsa.cli import app
 from svsa.errors import ParameterError
 from svsa.evaluation.falsifier import falsification as finding
-from svsa.evaluation.falsifier.file import (
-    list_adversaries,
-    read_adversary,
-    read_scenario,
-)
+from svsa.evaluation.falsifier.file import list_adversaries, read_adversary, read_scenario
 from svsa.evaluation.falsifier.measure import measure_attacks
 from tests.evaluation.falsifier.test_scenario_files import GOOD
 from tests.evaluation.falsifier.weak_law import install

@@ -20,9 +20,7 @@ QBMOVE = Adversary(
         "position": {"kind": "constant"},
         "loads": [],
     },
-    terms=[
-        {"kind": "pulse", "torque_nm": 0.1, "start_s": [0.2, 0.8], "duration_s": [0.02, 1.0]},
-    ],
+    terms=[{"kind": "pulse", "torque_nm": 0.1, "start_s": [0.2, 0.8], "duration_s": [0.02, 1.0]}],
     vary=[
         {
             "path": "actuator.spring_torque_nm",

@@ -9,12 +9,7 @@ import pytest
 
 from svsa.control.installed import get_law
 from svsa.evaluation.ranking.bench_runs import load_published_bench_runs
-from svsa.evaluation.ranking.publish import (
-    FOLDER,
-    build_index,
-    build_law_page,
-    build_margins,
-)
+from svsa.evaluation.ranking.publish import FOLDER, build_index, build_law_page, build_margins
 from svsa.evaluation.ranking.results import load_published
 from svsa.evaluation.ranking.table import format_success
 from tests.exhaustive import exhaust

@@ -106,12 +106,7 @@ def test_study_of_another_version_is_not_mixed_with_new_runs(tmp_path, monkeypat
 
 def test_contradictory_settings_are_reported_and_other_samples_run(tmp_path):
     """In some samples the upper limit of the stiffness is below the reference: these do not run."""
-    limit = {
-        "kind": "uniform",
-        "path": "limits.stiffness_min_nm_per_rad",
-        "low": 1.0,
-        "high": 14.0,
-    }
+    limit = {"kind": "uniform", "path": "limits.stiffness_min_nm_per_rad", "low": 1.0, "high": 14.0}
     stiffness = {"kind": "uniform", "path": "stiffness.stiffness_nm_per_rad", "low": 5.0, "high": 9}
     stored = run_whole(tmp_path, vary=(limit, {**stiffness, "high": 9.0}), laws=("ndobc",))
     rows = read_rows(stored).to_pylist()

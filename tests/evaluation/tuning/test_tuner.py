@@ -14,13 +14,7 @@ from svsa.evaluation.campaign.journal import Journal
 from svsa.evaluation.trials import build_training
 from svsa.evaluation.tuning import tuned_law
 from svsa.evaluation.tuning.file import format_tuned
-from svsa.evaluation.tuning.judge import (
-    LOUD,
-    Judgment,
-    TrialSet,
-    find_noise_limit,
-    judge,
-)
+from svsa.evaluation.tuning.judge import LOUD, Judgment, TrialSet, find_noise_limit, judge
 from svsa.evaluation.tuning.search_space import build_space
 from svsa.evaluation.tuning.tuned_law import TunedLaw, build_tuned_law, load_tuned_laws
 from svsa.evaluation.tuning.tuner import tune
