@@ -6,6 +6,7 @@ reported and the function is compiled in the server.
 """
 
 import contextlib
+import operator
 import os
 import pickle
 import shutil
@@ -177,7 +178,10 @@ def _is_available(dispatcher: Any, signature: Any) -> bool:
 
 
 def _find_function(module: str, name: str) -> Any:
-    return getattr(sys.modules.get(module), name, None)
+    try:
+        return operator.attrgetter(name)(sys.modules[module])
+    except (AttributeError, KeyError):
+        return None
 
 
 def compile_request() -> None:
