@@ -17,14 +17,14 @@ from svsa.actuators.parameters import ActuatorParameters, Limits
 from svsa.actuators.signals import CHANNELS
 from svsa.control.gains import Gains
 from svsa.control.installed import get_law, get_title, has_own_parameters, list_law_names
-from svsa.hardware.file import (
+from svsa.hardware.bench.settings import BusSettings, DeflectionSettings, MotorSettings
+from svsa.hardware.description.file import (
     DesignSettings,
     EmulatorSettings,
     HomeSettings,
     SafetySettings,
     TimingSettings,
 )
-from svsa.hardware.settings import BusSettings, DeflectionSettings, MotorSettings
 from svsa.inputs.checked import read_quantity
 from svsa.simulation.plant.effects import EFFECTS, Effects
 from svsa.simulation.plant.loads import LOADS

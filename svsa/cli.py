@@ -189,8 +189,8 @@ def measure_costs(
 def print_dbc(file: Annotated[Path, typer.Argument(help="Bench file (TOML).")]) -> None:
     """Print the frames of a bench as a DBC file, which CAN tools read to decode a capture."""
     require_extra("bench")
-    from svsa.hardware.dbc import describe_bench
-    from svsa.hardware.file import read_bench
+    from svsa.hardware.description.dbc import describe_bench
+    from svsa.hardware.description.file import read_bench
 
     print(describe_bench(read_bench(file)))
 

@@ -81,10 +81,10 @@ def bench_home(
 ) -> None:
     """Write the calibration record of a bench: zero counts, and who checked the zero marks."""
     require_extra("bench")
-    from svsa.hardware.calibration import list_problems
-    from svsa.hardware.file import read_bench
-    from svsa.hardware.homing import STEPS, Homing
-    from svsa.hardware.zero import calibrate
+    from svsa.hardware.bench.homing import STEPS, Homing
+    from svsa.hardware.commissioning.zero import calibrate
+    from svsa.hardware.description.calibration import list_problems
+    from svsa.hardware.description.file import read_bench
 
     console = Console(highlight=False)
     bench = read_bench(file)

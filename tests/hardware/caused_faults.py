@@ -9,9 +9,8 @@ import pytest
 
 from svsa.actuators.faults import BENCH_FAULTS
 from svsa.errors import StateError
-from svsa.hardware import can_plant
+from svsa.hardware.bench.emulation import ADVANCE_ID, encode_time
 from svsa.hardware.drives.installed import build_stop
-from svsa.hardware.emulation import ADVANCE_ID, encode_time
 from svsa.hardware.emulator.faults import (
     BrownOut,
     BusErrors,
@@ -28,6 +27,7 @@ from svsa.hardware.emulator.faults import (
     Stall,
     ZeroedCounter,
 )
+from svsa.hardware.plant import can_plant
 from svsa.hardware.safety.machine import BenchStatus
 from svsa.simulation.plant.loads.constant import ConstantLoad
 

@@ -8,17 +8,18 @@ from typing import Any
 import svsa
 from svsa.actuators.dynamics import compute_deflection
 from svsa.actuators.signals import Disturbance, Measurement, State, Torque
-from svsa.hardware.calibration import find_calibration
-from svsa.hardware.can_plant import CanPlant
-from svsa.hardware.clock import LockstepClock
+from svsa.hardware.bench.reading import Reading
+from svsa.hardware.bench.settings import BusSettings
+from svsa.hardware.description.calibration import find_calibration
+from svsa.hardware.description.file import BenchFile, read_bench
 from svsa.hardware.drives.conversion import build_motor_scale, compute_current_ma
 from svsa.hardware.drives.phase import Phase
 from svsa.hardware.emulator.experiment import connect_bench
 from svsa.hardware.emulator.launch import RunningEmulator
 from svsa.hardware.emulator.mechanics import Mechanics
 from svsa.hardware.emulator.parameters import EmulatorParameters
-from svsa.hardware.file import BenchFile, read_bench
-from svsa.hardware.reading import Reading
+from svsa.hardware.plant.can_plant import CanPlant
+from svsa.hardware.plant.clock import LockstepClock
 from svsa.hardware.realtime.configuration import (
     build_bench_configuration,
     build_guard,
@@ -27,7 +28,6 @@ from svsa.hardware.realtime.configuration import (
 from svsa.hardware.realtime.loop import BenchLoop
 from svsa.hardware.realtime.memory import SampleArray
 from svsa.hardware.safety.machine import BenchStatus, Conditions, Machine
-from svsa.hardware.settings import BusSettings
 from svsa.runs.paper import get_figure
 from tests.hardware.wired_bench import EMULATOR_BENCH
 

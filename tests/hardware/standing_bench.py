@@ -12,7 +12,7 @@ import time
 from pathlib import Path
 
 from svsa.errors import StateError
-from svsa.hardware.homing import STEPS
+from svsa.hardware.bench.homing import STEPS
 from svsa.hardware.safety.machine import BenchStatus
 from svsa.hardware.session.session import BenchSession
 from svsa.runs.paper import get_figure

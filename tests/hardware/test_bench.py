@@ -8,7 +8,7 @@ import pytest
 import tomli_w
 
 from svsa.errors import ParameterError
-from svsa.hardware.file import read_bench
+from svsa.hardware.description.file import read_bench
 from tests.hardware.wired_bench import EMULATOR_BENCH
 
 

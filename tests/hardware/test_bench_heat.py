@@ -9,14 +9,14 @@ from typing import Any, NamedTuple
 import pytest
 
 from svsa.errors import Fault
+from svsa.hardware.description.file import read_bench
 from svsa.hardware.emulator.experiment import EMULATOR_BENCH
-from svsa.hardware.endurance import Endurance, find_endurance
-from svsa.hardware.file import read_bench
 from svsa.hardware.realtime.configuration import build_bench_configuration
 from svsa.hardware.realtime.link import Link
 from svsa.hardware.realtime.memory import LoopMemory
 from svsa.hardware.realtime.prepared_laws import PreparedLaws
 from svsa.hardware.realtime.process import LoopProcess
+from svsa.hardware.safety.endurance import Endurance, find_endurance
 from svsa.hardware.safety.heartbeat import Heartbeats
 from svsa.hardware.safety.machine import BenchStatus
 from svsa.simulation.plant.loads import Load

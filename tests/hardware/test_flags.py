@@ -6,10 +6,10 @@ from typing import Any
 import pytest
 
 from svsa.errors import ParameterError
-from svsa.hardware.calibration import Calibration, find_calibration
+from svsa.hardware.description.calibration import Calibration, find_calibration
+from svsa.hardware.description.file import EmulatorSettings, read_bench
 from svsa.hardware.encoders.can_node import CanNodeSettings
 from svsa.hardware.encoders.serial_line import SerialLineSettings
-from svsa.hardware.file import EmulatorSettings, read_bench
 from svsa.inputs.checked import Checked
 from tests.hardware.wired_bench import EMULATOR_BENCH
 

@@ -12,13 +12,13 @@ import pytest
 from svsa.actuators.installed import get_mechanism, list_mechanism_names
 from svsa.actuators.signals import CHANNEL_INDEX, Disturbance, State, Torque
 from svsa.errors import ParameterError
-from svsa.hardware.calibration import find_calibration, list_problems
+from svsa.hardware.bench.real_motors import RealMotors
+from svsa.hardware.description.calibration import find_calibration, list_problems
+from svsa.hardware.description.file import read_bench
 from svsa.hardware.emulator.bench_file import write_bench
 from svsa.hardware.emulator.experiment import LockstepBench
 from svsa.hardware.emulator.launch import start_emulator
 from svsa.hardware.emulator.parameters import build_emulator_parameters
-from svsa.hardware.file import read_bench
-from svsa.hardware.real_motors import RealMotors
 from svsa.hardware.realtime.configuration import (
     build_bench_configuration,
     build_first_experiment,

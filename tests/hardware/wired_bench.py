@@ -11,14 +11,14 @@ from typing import Any, NamedTuple
 import can
 
 from svsa.actuators.signals import Disturbance, State, Torque
-from svsa.hardware.calibration import find_calibration
-from svsa.hardware.can_plant import CanPlant
+from svsa.hardware.bench.emulation import Frame
+from svsa.hardware.bench.reading import Reading
+from svsa.hardware.description.calibration import find_calibration
+from svsa.hardware.description.file import BenchFile, read_bench
 from svsa.hardware.drives.robomodule import Command, decode, split_id
-from svsa.hardware.emulation import Frame
 from svsa.hardware.emulator.emulator import Emulator
 from svsa.hardware.emulator.parameters import EmulatorParameters
-from svsa.hardware.file import BenchFile, read_bench
-from svsa.hardware.reading import Reading
+from svsa.hardware.plant.can_plant import CanPlant
 from svsa.hardware.realtime.configuration import build_guard
 from svsa.hardware.realtime.loop import BenchLoop
 from svsa.hardware.safety.machine import BenchStatus

@@ -20,7 +20,7 @@ from uvicorn.config import LOGGING_CONFIG
 from svsa.actuators.parameters import get_mechanism_name
 from svsa.control.installed import BASELINE, PAPERS_LAW
 from svsa.errors import ParameterError, StateError, SvsaError, Violation
-from svsa.hardware.file import read_bench
+from svsa.hardware.description.file import read_bench
 from svsa.hardware.realtime.configuration import read_bench_design
 from svsa.hardware.safety.heartbeat import check_shared_memory
 from svsa.inputs.data_folder import DATA_VARIABLE, find_data_folder

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from svsa.hardware.homing import STEPS, Axis, get_instruction
+from svsa.hardware.bench.homing import STEPS, Axis, get_instruction
 from svsa.hardware.realtime.memory import LATENESS_EDGES_S, read_quantile
 from svsa.hardware.safety.heat import compute_lasting_torque
 from svsa.hardware.session.session import BenchSession

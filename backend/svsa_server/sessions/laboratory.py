@@ -11,8 +11,8 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from svsa.errors import StateError
+from svsa.hardware.description.file import read_bench
 from svsa.hardware.emulator.control import EmulatorControl, EmulatorError
-from svsa.hardware.file import read_bench
 from svsa.hardware.realtime.configuration import build_first_experiment
 from svsa.hardware.session.session import BenchSession
 from svsa.runs.command import Command

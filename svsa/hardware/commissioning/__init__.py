@@ -11,7 +11,7 @@ from pathlib import Path
 
 from svsa.actuators.parameters import MechanismParameters
 from svsa.errors import ParameterError
-from svsa.hardware.calibration import find_calibration, list_problems, note_signs
+from svsa.hardware.bench.real_motors import RealMotors
 from svsa.hardware.commissioning.coupling import check_coupling
 from svsa.hardware.commissioning.drives import advise_on_bus, bring_up, check_bus, check_drive
 from svsa.hardware.commissioning.flow import LISTEN_S, check_deflection, check_feedback, check_rest
@@ -23,9 +23,9 @@ from svsa.hardware.commissioning.probe import BusOpener, Clock, Probe
 from svsa.hardware.commissioning.pulse import Turn
 from svsa.hardware.commissioning.signs import judge_signs, prompt_directions
 from svsa.hardware.commissioning.step import CheckStep, Result
+from svsa.hardware.description.calibration import find_calibration, list_problems, note_signs
+from svsa.hardware.description.file import BenchFile, read_bench
 from svsa.hardware.drives.bus import BusError, open_bus
-from svsa.hardware.file import BenchFile, read_bench
-from svsa.hardware.real_motors import RealMotors
 from svsa.hardware.realtime.configuration import read_bench_design
 
 SIGN_STEPS = ("motor1: sign", "deflection: sign", "motor2: sign")

@@ -8,8 +8,8 @@ from svsa.actuators.parameters import MechanismParameters
 from svsa.hardware.commissioning.fit import LinkFit, fit_link
 from svsa.hardware.commissioning.pulse import MIN_DEFLECTION_COUNTS, Trace, Turn
 from svsa.hardware.commissioning.step import CheckStep, Result
+from svsa.hardware.description.file import BenchFile
 from svsa.hardware.encoders import read_source
-from svsa.hardware.file import BenchFile
 
 _FARTHEST = 0.5
 """Deflection in turns beyond which the counts must have a wrong format."""

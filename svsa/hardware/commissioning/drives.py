@@ -5,10 +5,10 @@ import numpy as np
 from svsa.hardware.commissioning.probe import Probe
 from svsa.hardware.commissioning.step import CheckStep, Result
 from svsa.hardware.commissioning.traffic import Traffic
+from svsa.hardware.description.file import BenchFile
 from svsa.hardware.drives.bus import advise_on_adapter
 from svsa.hardware.drives.installed import get_family
 from svsa.hardware.drives.phase import Phase
-from svsa.hardware.file import BenchFile
 
 QUIET_S = 0.3
 ECHOES = 20

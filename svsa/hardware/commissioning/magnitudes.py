@@ -13,11 +13,11 @@ from typing import NamedTuple
 from svsa.actuators.dynamics import build_actuator
 from svsa.actuators.elasticity import compute_coordinate_for_stiffness, compute_stiffness_of
 from svsa.actuators.parameters import MechanismParameters
+from svsa.hardware.bench.settings import MotorSettings
 from svsa.hardware.commissioning.fit import LinkFit, fit_motor
 from svsa.hardware.commissioning.pulse import Turn
 from svsa.hardware.commissioning.step import CheckStep, Result
-from svsa.hardware.file import BenchFile
-from svsa.hardware.settings import MotorSettings
+from svsa.hardware.description.file import BenchFile
 
 GAIN_TOLERANCE = 1.5
 """Factor by which k may differ, because of the uncertainty of inertia, efficiency and friction."""

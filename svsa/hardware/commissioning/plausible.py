@@ -5,10 +5,10 @@ from collections.abc import Iterator
 
 from svsa.actuators.dynamics import build_actuator
 from svsa.actuators.elasticity import compute_coordinate_for_stiffness, compute_coordinate_slope
+from svsa.hardware.bench.settings import MotorSettings
 from svsa.hardware.commissioning.step import CheckStep, Result
+from svsa.hardware.description.file import BenchFile
 from svsa.hardware.drives.conversion import MA_PER_A, build_motor_scale
-from svsa.hardware.file import BenchFile
-from svsa.hardware.settings import MotorSettings
 from svsa.runs.configuration import Design
 
 MAX_ANGLE_RAD = 2.0 * math.pi

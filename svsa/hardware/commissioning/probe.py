@@ -11,17 +11,17 @@ from collections.abc import Callable, Iterator
 import can
 
 from svsa.errors import SvsaError
+from svsa.hardware.bench.emulation import EMULATED_ID
+from svsa.hardware.bench.settings import BusSettings, MotorSettings
 from svsa.hardware.commissioning.traffic import Counts, HeardFeedback, Traffic
+from svsa.hardware.description.file import BenchFile
 from svsa.hardware.drives.bus import BusError, open_bus
 from svsa.hardware.drives.conversion import Unwrapped, build_motor_scale
 from svsa.hardware.drives.drive import Drive, compute_key, merge_stops
 from svsa.hardware.drives.installed import build_drive, build_stop, get_family
 from svsa.hardware.drives.phase import Phase
-from svsa.hardware.emulation import EMULATED_ID
 from svsa.hardware.encoders import read_source
 from svsa.hardware.encoders.source import EncoderError
-from svsa.hardware.file import BenchFile
-from svsa.hardware.settings import BusSettings, MotorSettings
 
 _ENCODER_POLL_S = 0.001
 _RELEASES = 5

@@ -12,10 +12,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from svsa.hardware.bench.settings import MotorSettings
 from svsa.hardware.commissioning.probe import Probe
 from svsa.hardware.commissioning.traffic import Traffic
 from svsa.hardware.drives.conversion import build_deflection_scale, build_motor_scale
-from svsa.hardware.settings import MotorSettings
 
 LEVELS = (0.01, 0.02, 0.03, 0.05, 0.08, 0.11, 0.15)
 LONGEST_PULSE_S = 0.15

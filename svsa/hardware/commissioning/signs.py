@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator, Mapping
 from svsa.hardware.commissioning.fit import LinkFit
 from svsa.hardware.commissioning.pulse import Turn
 from svsa.hardware.commissioning.step import CheckStep, Result
-from svsa.hardware.file import BenchFile
+from svsa.hardware.description.file import BenchFile
 
 _WAYS = {
     "motor1": "the way that you count as positive angles of the link",

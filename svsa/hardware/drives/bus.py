@@ -10,7 +10,7 @@ from typing import Any
 import can
 
 from svsa.errors import SvsaError
-from svsa.hardware.settings import BusSettings
+from svsa.hardware.bench.settings import BusSettings
 from svsa.inputs.nearest import suggest
 
 _ANSWER_S = 5.0

@@ -3,7 +3,7 @@
 import math
 from typing import NamedTuple
 
-from svsa.hardware.settings import DeflectionSettings, MotorSettings
+from svsa.hardware.bench.settings import DeflectionSettings, MotorSettings
 
 MA_PER_A = 1000.0
 

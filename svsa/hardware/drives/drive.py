@@ -13,8 +13,8 @@ from typing import NamedTuple
 
 import can
 
+from svsa.hardware.bench.settings import MotorSettings
 from svsa.hardware.drives.phase import Phase
-from svsa.hardware.settings import MotorSettings
 
 EXTENDED = 1 << 31
 """Marks the key of a 29-bit identifier, as SocketCAN's CAN_EFF_FLAG does."""

@@ -9,8 +9,8 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable
 from typing import ClassVar, NamedTuple
 
-from svsa.hardware.emulation import Frame
-from svsa.hardware.settings import DEFAULT_DRIVE, Sign
+from svsa.hardware.bench.emulation import Frame
+from svsa.hardware.bench.settings import DEFAULT_DRIVE, Sign
 from svsa.inputs.checked import Checked, Number, Whole, quantity
 
 

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import can
 
+from svsa.hardware.bench.settings import MotorSettings
 from svsa.hardware.drives.drive import Drive, StopFrames
 from svsa.hardware.drives.emulated import EmulatedDrive, EmulatedMotor
-from svsa.hardware.settings import MotorSettings
 
 if TYPE_CHECKING:
     from cantools.database.can import Message as DbcMessage

@@ -9,8 +9,8 @@ from importlib.metadata import EntryPoint, entry_points
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from svsa.errors import ParameterError, SvsaError, Violation
+from svsa.hardware.bench.settings import DEFAULT_DRIVE, MotorSettings
 from svsa.hardware.drives.emulated import EmulatedMotor
-from svsa.hardware.settings import DEFAULT_DRIVE, MotorSettings
 from svsa.inputs.checked import Checked
 from svsa.inputs.extras import require_extra
 from svsa.inputs.nearest import suggest

@@ -10,10 +10,14 @@ from svsa.actuators.dynamics import build_actuator
 from svsa.actuators.elasticity import compute_coordinate_slope
 from svsa.actuators.installed import find_mechanism
 from svsa.actuators.parameters import SVSA, Limits
-from svsa.hardware.calibration import Calibration, compute_fingerprint, write_calibration
+from svsa.hardware.bench.real_motors import RealMotors
+from svsa.hardware.description.calibration import (
+    Calibration,
+    compute_fingerprint,
+    write_calibration,
+)
+from svsa.hardware.description.file import BenchFile, read_bench
 from svsa.hardware.emulator.parameters import EmulatedMotor, EmulatorParameters
-from svsa.hardware.file import BenchFile, read_bench
-from svsa.hardware.real_motors import RealMotors
 from svsa.hardware.safety.guard import POSITION_MARGIN_RAD
 from svsa.inputs.toml_file import read_toml
 

@@ -13,9 +13,10 @@ from typing import Any
 
 from svsa.actuators.dynamics import compute_deflection
 from svsa.actuators.signals import Torque
+from svsa.hardware.bench.emulation import EMULATED_DATA, EMULATED_ID, EMULATED_PERIOD_S, Frame
+from svsa.hardware.bench.real_motors import RealMotors
 from svsa.hardware.drives.emulated import EmulatedDrive, EmulatorClock, Motion
 from svsa.hardware.drives.installed import get_family
-from svsa.hardware.emulation import EMULATED_DATA, EMULATED_ID, EMULATED_PERIOD_S, Frame
 from svsa.hardware.emulator.encoder import EncoderNode
 from svsa.hardware.emulator.faults import (
     BrownOut,
@@ -34,7 +35,6 @@ from svsa.hardware.emulator.faults import (
 )
 from svsa.hardware.emulator.mechanics import Mechanics
 from svsa.hardware.emulator.parameters import EmulatorParameters
-from svsa.hardware.real_motors import RealMotors
 from svsa.simulation.plant.loads import Load
 
 FRAME_US = 130

@@ -2,7 +2,7 @@
 
 import math
 
-from svsa.hardware.emulation import Frame
+from svsa.hardware.bench.emulation import Frame
 from svsa.hardware.emulator.parameters import EmulatedDeflection
 
 _UNUSED = b"\x55" * 4

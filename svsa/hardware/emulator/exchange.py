@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from svsa.hardware.emulation import (
+from svsa.hardware.bench.emulation import (
     ADVANCE_ID,
     EMULATED_DATA,
     EMULATED_ID,

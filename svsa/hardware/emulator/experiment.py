@@ -7,12 +7,12 @@ gives the same samples every time.
 from collections.abc import Callable
 
 from svsa.errors import FaultError, StateError
-from svsa.hardware.calibration import find_calibration
-from svsa.hardware.can_plant import CanPlant
-from svsa.hardware.clock import LockstepClock
+from svsa.hardware.description.calibration import find_calibration
+from svsa.hardware.description.file import BenchFile, read_bench
 from svsa.hardware.emulator.bench_file import EMULATOR_BENCH
 from svsa.hardware.emulator.launch import RunningEmulator, start_emulator
-from svsa.hardware.file import BenchFile, read_bench
+from svsa.hardware.plant.can_plant import CanPlant
+from svsa.hardware.plant.clock import LockstepClock
 from svsa.hardware.realtime.configuration import (
     build_bench_configuration,
     build_guard,

@@ -8,7 +8,7 @@ but=client)`, on this server and on the others.
 from collections.abc import Callable
 from typing import Any, Protocol
 
-from svsa.hardware.emulation import Frame
+from svsa.hardware.bench.emulation import Frame
 
 
 class FrameServer(Protocol):

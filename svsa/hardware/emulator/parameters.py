@@ -13,9 +13,9 @@ from svsa.actuators.installed import InstalledActuator, find_mechanism, get_mech
 from svsa.actuators.mechanism import Mechanism
 from svsa.actuators.parameters import SVSA, MechanismParameters
 from svsa.errors import ParameterError, Violation
+from svsa.hardware.bench.settings import DEFAULT_DRIVE, Sign
 from svsa.hardware.drives.emulated import EmulatedMotor, EmulatorClock
 from svsa.hardware.drives.installed import get_family, read_emulated_motor
-from svsa.hardware.settings import DEFAULT_DRIVE, Sign
 from svsa.inputs.checked import Checked, Number, Whole, quantity
 from svsa.inputs.toml_file import read_toml
 from svsa.runs.design_file import load_prototype

@@ -16,7 +16,7 @@ import termios
 import tty
 from typing import Any
 
-from svsa.hardware.emulation import Frame
+from svsa.hardware.bench.emulation import Frame
 from svsa.hardware.emulator.frame import Outbox
 
 OK, BELL = b"\r", b"\a"

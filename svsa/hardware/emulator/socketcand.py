@@ -21,7 +21,7 @@ import socket
 import time
 from typing import Any
 
-from svsa.hardware.emulation import Frame
+from svsa.hardware.bench.emulation import Frame
 from svsa.hardware.emulator.frame import Outbox
 
 QUIET_S = 0.2

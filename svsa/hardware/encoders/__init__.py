@@ -1,8 +1,8 @@
 """Sources of the deflection encoder's counts, one per file."""
 
 from svsa.errors import ParameterError
+from svsa.hardware.bench.settings import DeflectionSettings
 from svsa.hardware.encoders.source import DeflectionSource
-from svsa.hardware.settings import DeflectionSettings
 
 
 def read_source(settings: DeflectionSettings) -> DeflectionSource:

@@ -8,8 +8,8 @@ from svsa.actuators.installed import find_mechanism
 from svsa.actuators.parameters import SVSA, get_mechanism_name
 from svsa.control.installed import PAPERS_LAW
 from svsa.errors import ParameterError, StateError, Violation
-from svsa.hardware.file import BenchFile, check_home
-from svsa.hardware.real_motors import RealMotors
+from svsa.hardware.bench.real_motors import RealMotors
+from svsa.hardware.description.file import BenchFile, check_home
 from svsa.hardware.safety.guard import Guard
 from svsa.runs.configuration import Configuration, Design, Lane
 from svsa.runs.design_file import load_prototype, read_design

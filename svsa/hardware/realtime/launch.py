@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from svsa.errors import ParameterError, StateError, SvsaError, Violation
-from svsa.hardware.file import read_bench
+from svsa.hardware.description.file import read_bench
 from svsa.hardware.realtime.link import LinkClosedError, build_links
 from svsa.hardware.realtime.memory import LoopMemory
 from svsa.hardware.realtime.prepared_laws import UnpreparedLawError

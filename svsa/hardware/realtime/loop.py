@@ -15,7 +15,7 @@ from svsa.actuators.signals import CHANNELS, Disturbance, Measurement, State, To
 from svsa.control.call import BoundLaw, build_call
 from svsa.control.installed import get_law
 from svsa.errors import StateError
-from svsa.hardware.reading import Reading
+from svsa.hardware.bench.reading import Reading
 from svsa.hardware.safety.machine import BenchStatus
 from svsa.numerics.packed import pack, view_field
 from svsa.runs.blocks import Bind, bind_law

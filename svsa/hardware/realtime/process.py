@@ -15,10 +15,10 @@ from typing import Any
 from pydantic_core import to_jsonable_python
 
 from svsa.errors import ParameterError, SvsaError, Violation
-from svsa.hardware.calibration import find_calibration
-from svsa.hardware.can_plant import CanPlant
-from svsa.hardware.clock import BenchClock, ClockError, choose_clock
-from svsa.hardware.file import read_bench
+from svsa.hardware.description.calibration import find_calibration
+from svsa.hardware.description.file import read_bench
+from svsa.hardware.plant.can_plant import CanPlant
+from svsa.hardware.plant.clock import BenchClock, ClockError, choose_clock
 from svsa.hardware.realtime.configuration import build_guard, read_actuation
 from svsa.hardware.realtime.link import Link, LinkClosedError
 from svsa.hardware.realtime.loop import MOVING, STATUSES, BenchLoop

@@ -7,8 +7,9 @@ from svsa.actuators.domain import INSIDE, Bounds, Domain, check_packed_domain
 from svsa.actuators.elasticity import AnyActuator
 from svsa.actuators.faults import ALLOWED_TORQUE, FAULT_CODES, label_fault
 from svsa.actuators.signals import Disturbance, State, Torque
-from svsa.hardware.file import BenchFile
-from svsa.hardware.real_motors import RealMotors
+from svsa.hardware.bench.real_motors import RealMotors
+from svsa.hardware.bench.settings import AXIS_WORDS, MotorSettings
+from svsa.hardware.description.file import BenchFile
 from svsa.hardware.safety.faults import Alarm
 from svsa.hardware.safety.heat import (
     HeatReduction,
@@ -17,7 +18,6 @@ from svsa.hardware.safety.heat import (
     describe_heat_reduction,
 )
 from svsa.hardware.safety.standstill import NewCounts, Standstill
-from svsa.hardware.settings import AXIS_WORDS, MotorSettings
 from svsa.numerics.packed import pack
 
 SWING_RAD_PER_S = 2.0

@@ -3,8 +3,8 @@
 import math
 from typing import NamedTuple
 
+from svsa.hardware.bench.settings import AXIS_WORDS, MotorSettings
 from svsa.hardware.drives.conversion import build_motor_scale
-from svsa.hardware.settings import AXIS_WORDS, MotorSettings
 from svsa.numerics.exponential import expm1
 
 WARM = 0.9

@@ -12,12 +12,12 @@ from typing import NamedTuple
 
 from svsa.actuators.signals import Disturbance, State, Torque
 from svsa.errors import Fault, StateError
+from svsa.hardware.bench.homing import Homing
+from svsa.hardware.bench.settings import AXIS_WORDS
+from svsa.hardware.description.file import BenchFile
 from svsa.hardware.drives.phase import Phase
-from svsa.hardware.file import BenchFile
-from svsa.hardware.homing import Homing
 from svsa.hardware.safety.faults import Alarm, FaultLatch
 from svsa.hardware.safety.guard import Guard
-from svsa.hardware.settings import AXIS_WORDS
 
 NO_TORQUE = Torque(0.0, 0.0)
 AXES = ("motor1", "motor2", "deflection")

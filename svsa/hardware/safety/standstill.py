@@ -6,8 +6,8 @@ commanded torque; the change is detected long before ŵ exceeds any load.
 """
 
 from svsa.actuators.signals import Disturbance
+from svsa.hardware.bench.settings import AXIS_WORDS
 from svsa.hardware.safety.faults import Alarm
-from svsa.hardware.settings import AXIS_WORDS
 
 NewCounts = tuple[int | None, int | None, int | None]
 """Counts of motor 1, motor 2, deflection; None without a new reading in this tick."""

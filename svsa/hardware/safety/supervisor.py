@@ -17,10 +17,10 @@ import time
 import can
 
 from svsa.errors import SvsaError
+from svsa.hardware.description.file import BenchFile, read_bench
 from svsa.hardware.drives.bus import DELIVERY_S, open_bus, take_waiting
 from svsa.hardware.drives.drive import merge_stops
 from svsa.hardware.drives.installed import build_stop
-from svsa.hardware.file import BenchFile, read_bench
 from svsa.hardware.safety.heartbeat import Heartbeats
 from svsa.hardware.schedule import SUPERVISOR_PRIORITY, request_real_time
 

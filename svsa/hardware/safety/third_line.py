@@ -14,8 +14,8 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from svsa.errors import SvsaError
+from svsa.hardware.description.file import BenchFile
 from svsa.hardware.drives.bus import BUS_TROUBLE, open_bus, prepare_bus
-from svsa.hardware.file import BenchFile
 from svsa.hardware.safety.heartbeat import Heartbeats
 from svsa.hardware.safety.supervisor import PERIOD_S, Supervisor
 from svsa.hardware.schedule import SUPERVISOR_PRIORITY, request_priority

@@ -18,8 +18,8 @@ from svsa.actuators.signals import (
     State,
     Torque,
 )
-from svsa.hardware.reading import Reading
-from svsa.hardware.real_motors import RealMotors
+from svsa.hardware.bench.reading import Reading
+from svsa.hardware.bench.real_motors import RealMotors
 from svsa.hardware.realtime.loop import BenchLoop
 from svsa.hardware.realtime.memory import SampleArray
 from svsa.hardware.safety.machine import BenchStatus

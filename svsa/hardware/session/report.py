@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from svsa.errors import Fault
-from svsa.hardware.homing import STEPS, Axis
+from svsa.hardware.bench.homing import STEPS, Axis
 from svsa.hardware.safety.faults import FaultLatch
 from svsa.hardware.safety.heat import describe_heat
 from svsa.hardware.safety.machine import MOVING, BenchStatus

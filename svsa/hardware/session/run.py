@@ -6,8 +6,8 @@ import numpy as np
 
 from svsa.actuators.domain import INSIDE
 from svsa.actuators.signals import CHANNEL_INDEX
+from svsa.hardware.description.file import BenchFile
 from svsa.hardware.drives.conversion import build_motor_scale
-from svsa.hardware.file import BenchFile
 from svsa.hardware.realtime.configuration import read_actuation
 from svsa.runs.command import Command
 from svsa.runs.configuration import Configuration

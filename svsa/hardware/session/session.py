@@ -7,8 +7,8 @@ from typing import Any
 
 from svsa.actuators.signals import State
 from svsa.errors import Fault, StateError
-from svsa.hardware.calibration import find_calibration, list_problems
-from svsa.hardware.file import read_bench
+from svsa.hardware.description.calibration import find_calibration, list_problems
+from svsa.hardware.description.file import read_bench
 from svsa.hardware.realtime.configuration import build_bench_configuration, check_loads
 from svsa.hardware.realtime.launch import ReportProgress, Rest, ignore_progress
 from svsa.hardware.safety.machine import MOVING, BenchStatus

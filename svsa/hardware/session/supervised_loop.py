@@ -6,8 +6,8 @@ from pathlib import Path
 from typing import Any
 
 from svsa.errors import StateError
-from svsa.hardware.emulation import EMULATED_PERIOD_S
-from svsa.hardware.file import BenchFile
+from svsa.hardware.bench.emulation import EMULATED_PERIOD_S
+from svsa.hardware.description.file import BenchFile
 from svsa.hardware.realtime.launch import (
     COLD,
     PATIENCE_S,

@@ -5,7 +5,7 @@ import pytest
 from svsa.hardware.commissioning.drives import bring_up
 from svsa.hardware.commissioning.motion import check_motion
 from svsa.hardware.commissioning.probe import Probe
-from svsa.hardware.file import read_bench
+from svsa.hardware.description.file import read_bench
 from tests.hardware.emulator.bus_in_time import EMULATOR_BENCH, EmulatorBus, copy_bench
 
 

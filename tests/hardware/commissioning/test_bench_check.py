@@ -4,9 +4,12 @@ import itertools
 
 import pytest
 
-from svsa.hardware.calibration import find_calibration
+from svsa.hardware.bench.homing import STEPS, Homing
 from svsa.hardware.commissioning import SIGN_STEPS, check_bench
 from svsa.hardware.commissioning.step import Result
+from svsa.hardware.commissioning.zero import calibrate
+from svsa.hardware.description.calibration import find_calibration
+from svsa.hardware.description.file import read_bench
 from svsa.hardware.emulator.emulator import Emulator
 from svsa.hardware.emulator.faults import (
     BusErrors,
@@ -19,9 +22,6 @@ from svsa.hardware.emulator.faults import (
     Stall,
 )
 from svsa.hardware.emulator.parameters import EmulatedDeflection, EmulatorParameters
-from svsa.hardware.file import read_bench
-from svsa.hardware.homing import STEPS, Homing
-from svsa.hardware.zero import calibrate
 from svsa.simulation.plant.loads.constant import ConstantLoad
 from tests.exhaustive import exhaust
 from tests.hardware.commissioning.checked_bench import Watcher, check, find_current, list_currents

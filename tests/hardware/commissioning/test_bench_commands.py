@@ -6,10 +6,10 @@ import pytest
 from typer import Typer
 from typer.testing import CliRunner
 
-from svsa.hardware.calibration import find_calibration
 from svsa.hardware.cli import bench_check, bench_home
+from svsa.hardware.description.calibration import find_calibration
+from svsa.hardware.description.file import read_bench
 from svsa.hardware.emulator.launch import start_emulator
-from svsa.hardware.file import read_bench
 from tests.hardware.emulator.bus_in_time import copy_bench
 
 APP = Typer()

@@ -5,6 +5,7 @@ import contextlib
 import can
 import pytest
 
+from svsa.hardware.bench.emulation import Frame
 from svsa.hardware.commissioning import check_bench
 from svsa.hardware.commissioning.step import Result
 from svsa.hardware.drives.bus import BusError
@@ -16,7 +17,6 @@ from svsa.hardware.drives.robomodule import (
     encode,
     split_id,
 )
-from svsa.hardware.emulation import Frame
 from tests.exhaustive import exhaust
 from tests.hardware.commissioning.checked_bench import assert_left_alone, check
 

@@ -7,7 +7,7 @@ import pytest
 from svsa.hardware.commissioning.coupling import check_coupling
 from svsa.hardware.commissioning.magnitudes import compare_magnitudes
 from svsa.hardware.commissioning.step import Result
-from svsa.hardware.file import read_bench
+from svsa.hardware.description.file import read_bench
 from svsa.hardware.realtime.configuration import read_bench_design
 from tests.exhaustive import exhaust
 from tests.hardware.commissioning.checked_bench import Watcher, check

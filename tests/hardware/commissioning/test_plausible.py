@@ -4,7 +4,7 @@ import pytest
 
 from svsa.hardware.commissioning.plausible import list_implausible
 from svsa.hardware.commissioning.step import Result
-from svsa.hardware.file import read_bench
+from svsa.hardware.description.file import read_bench
 from svsa.hardware.realtime.configuration import read_bench_design
 from tests.hardware.commissioning.checked_bench import check
 from tests.hardware.emulator.bus_in_time import EMULATOR_BENCH, copy_bench

@@ -8,7 +8,7 @@ from svsa.hardware.commissioning.fit import fit_link
 from svsa.hardware.commissioning.pulse import Turn
 from svsa.hardware.commissioning.signs import judge_signs
 from svsa.hardware.commissioning.step import Result
-from svsa.hardware.file import read_bench
+from svsa.hardware.description.file import read_bench
 from tests.hardware.emulator.bus_in_time import EMULATOR_BENCH
 
 DAMPING = 0.5

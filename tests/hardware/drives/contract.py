@@ -20,7 +20,8 @@ import pytest
 import tomli_w
 
 from svsa.errors import ParameterError
-from svsa.hardware.dbc import describe_bench
+from svsa.hardware.description.dbc import describe_bench
+from svsa.hardware.description.file import read_bench
 from svsa.hardware.drives.conversion import build_motor_scale
 from svsa.hardware.drives.drive import GATE_JITTER_S, compute_key, merge_stops
 from svsa.hardware.drives.installed import build_drive, build_stop, get_family
@@ -28,7 +29,6 @@ from svsa.hardware.drives.phase import Phase
 from svsa.hardware.emulator.experiment import EMULATOR_BENCH
 from svsa.hardware.emulator.faults import Silence, Stall
 from svsa.hardware.emulator.launch import RunningEmulator, start_emulator
-from svsa.hardware.file import read_bench
 from svsa.hardware.safety.heartbeat import Heartbeats
 from tests.hardware.drives.rig import LONGEST_START_S, MOTORS, TICK_S, Rig
 

@@ -4,14 +4,14 @@ from typing import Any
 
 import can
 
-from svsa.hardware.clock import LockstepClock
+from svsa.hardware.description.file import BenchFile
 from svsa.hardware.drives.bus import open_bus, take_waiting
 from svsa.hardware.drives.conversion import build_motor_scale
 from svsa.hardware.drives.drive import Drive, compute_key, merge_stops
 from svsa.hardware.drives.installed import build_drive, build_stop
 from svsa.hardware.drives.phase import Phase
 from svsa.hardware.emulator.launch import RunningEmulator
-from svsa.hardware.file import BenchFile
+from svsa.hardware.plant.clock import LockstepClock
 
 TICK_S = 0.001
 LONGEST_START_S = 3.0

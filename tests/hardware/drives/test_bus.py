@@ -7,9 +7,9 @@ import threading
 import can
 import pytest
 
+from svsa.hardware.bench.settings import BusSettings
 from svsa.hardware.drives import bus as bus_module
 from svsa.hardware.drives.bus import BusError, open_bus
-from svsa.hardware.settings import BusSettings
 
 
 def test_unknown_interfaces_and_invalid_options_are_errors_of_the_bus():

@@ -6,13 +6,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from svsa.hardware.bench.settings import DeflectionSettings, MotorSettings
 from svsa.hardware.drives.conversion import (
     Unwrapped,
     build_deflection_scale,
     build_motor_scale,
     compute_current_ma,
 )
-from svsa.hardware.settings import DeflectionSettings, MotorSettings
 
 MOTOR = MotorSettings(
     counts_per_rev=2000,

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import can
 
+from svsa.hardware.bench.settings import BusSettings
 from svsa.hardware.emulator.emulator import Emulator
-from svsa.hardware.settings import BusSettings
 from tests.hardware.emulator.wire_frames import build_message, read_frame
 
 EMULATOR_BENCH = Path(__file__).parents[3] / "svsa" / "hardware" / "emulator" / "bench.toml"

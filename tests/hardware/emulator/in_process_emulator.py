@@ -10,12 +10,12 @@ from unittest.mock import patch
 import can
 
 from svsa.actuators.parameters import SVSA
-from svsa.hardware.emulation import Frame
+from svsa.hardware.bench.emulation import Frame
+from svsa.hardware.bench.settings import BusSettings
 from svsa.hardware.emulator.control import EmulatorControl, EmulatorError, answer
 from svsa.hardware.emulator.emulator import Emulator
 from svsa.hardware.emulator.exchange import Exchange
 from svsa.hardware.emulator.parameters import build_emulator_parameters
-from svsa.hardware.settings import BusSettings
 from tests.hardware.emulator.wire_frames import build_message, read_frame
 
 
@@ -108,5 +108,5 @@ class InProcessEmulator:
 def start_in_process(actuator: str = SVSA) -> Iterator[InProcessEmulator]:
     """An emulator whose buses replace those that a plant opens."""
     emulator = InProcessEmulator(actuator)
-    with patch("svsa.hardware.can_plant.open_bus", emulator.open_bus):
+    with patch("svsa.hardware.plant.can_plant.open_bus", emulator.open_bus):
         yield emulator

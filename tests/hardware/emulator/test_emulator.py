@@ -4,6 +4,7 @@ import itertools
 
 import pytest
 
+from svsa.hardware.bench.emulation import EMULATED_ID, Frame
 from svsa.hardware.drives.robomodule import (
     Address,
     Command,
@@ -16,7 +17,6 @@ from svsa.hardware.drives.robomodule import (
     decode,
     encode,
 )
-from svsa.hardware.emulation import EMULATED_ID, Frame
 from svsa.hardware.emulator.emulator import FRAME_US, Emulator
 from svsa.simulation.plant.loads.constant import ConstantLoad
 

@@ -8,7 +8,7 @@ import time
 
 import pytest
 
-from svsa.hardware.emulation import ADVANCE_ID, EMULATED_ID, encode_time
+from svsa.hardware.bench.emulation import ADVANCE_ID, EMULATED_ID, encode_time
 from svsa.hardware.emulator.control import EmulatorError
 from svsa.hardware.emulator.faults import Silence
 from svsa.hardware.emulator.launch import start_emulator

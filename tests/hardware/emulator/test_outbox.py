@@ -2,7 +2,7 @@
 
 import pytest
 
-from svsa.hardware.emulation import ADVANCE_ID, encode_time
+from svsa.hardware.bench.emulation import ADVANCE_ID, encode_time
 from svsa.hardware.emulator.emulator import Emulator
 from svsa.hardware.emulator.exchange import Exchange
 from svsa.hardware.emulator.frame import FULL_BYTES, Frame, Outbox

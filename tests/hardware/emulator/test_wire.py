@@ -8,7 +8,7 @@ import time
 import can
 import pytest
 
-from svsa.hardware.emulation import EMULATED_ID, Frame
+from svsa.hardware.bench.emulation import EMULATED_ID, Frame
 from svsa.hardware.emulator.slcan import SlcanServer
 from svsa.hardware.emulator.socketcand import SocketcandServer
 

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from svsa.hardware.emulation import Frame
+from svsa.hardware.bench.emulation import Frame
 from svsa.hardware.emulator.slcan import SlcanServer
 
 from .wire_frames import DATA, FRAMES

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from svsa.hardware.emulation import Frame
+from svsa.hardware.bench.emulation import Frame
 from svsa.hardware.emulator import socketcand
 from svsa.hardware.emulator.socketcand import SocketcandServer
 

@@ -2,7 +2,7 @@
 
 import can
 
-from svsa.hardware.emulation import ADVANCE_ID, EMULATED_DATA, EMULATED_ID, Frame, encode_time
+from svsa.hardware.bench.emulation import ADVANCE_ID, EMULATED_DATA, EMULATED_ID, Frame, encode_time
 
 GREETING = Frame(EMULATED_ID, EMULATED_DATA, extended=True)
 DATA = bytes.fromhex("138803E855555555")

@@ -4,12 +4,12 @@ import can
 import pytest
 
 from svsa.errors import ParameterError
+from svsa.hardware.bench.settings import DeflectionSettings
 from svsa.hardware.drives.conversion import Unwrapped
 from svsa.hardware.encoders import read_source
 from svsa.hardware.encoders.nidaqmx_counter import NidaqmxCounter
 from svsa.hardware.encoders.serial_line import SerialLine
 from svsa.hardware.encoders.source import EncoderError
-from svsa.hardware.settings import DeflectionSettings
 
 
 def build(source, **options):

@@ -18,7 +18,7 @@ from svsa.control.gains import Gains
 from svsa.control.installed import get_law, list_law_names
 from svsa.control.parameters import LawParameters
 from svsa.errors import ParameterError
-from svsa.hardware.homing import STEPS
+from svsa.hardware.bench.homing import STEPS
 from svsa.hardware.realtime.configuration import build_bench_configuration, read_actuation
 from svsa.hardware.realtime.loop import BenchLoop
 from svsa.hardware.realtime.memory import LoopMemory, SampleArray

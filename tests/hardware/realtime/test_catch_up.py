@@ -3,10 +3,10 @@
 from types import SimpleNamespace
 from typing import Any
 
+from svsa.hardware.plant.sensing import MAX_FRAMES_A_TICK
 from svsa.hardware.realtime.memory import LoopMemory
 from svsa.hardware.realtime.process import LoopProcess
 from svsa.hardware.safety.machine import BenchStatus
-from svsa.hardware.sensing import MAX_FRAMES_A_TICK
 from tests.hardware.wired_bench import AT_REST, WiredBench
 
 LOADING_S = 2.0

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from svsa.control.installed import PAPERS_LAW, list_law_names
+from svsa.hardware.bench.homing import STEPS
 from svsa.hardware.emulator.launch import start_emulator
-from svsa.hardware.homing import STEPS
 from svsa.hardware.safety.machine import BenchStatus
 from svsa.hardware.session.session import BenchSession
 from svsa.runs.command import Set

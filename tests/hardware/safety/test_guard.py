@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from svsa.actuators.domain import build_domain
 from svsa.actuators.dynamics import build_actuator
 from svsa.actuators.signals import Disturbance, State, Torque
-from svsa.hardware.file import read_bench
-from svsa.hardware.real_motors import RealMotors
+from svsa.hardware.bench.real_motors import RealMotors
+from svsa.hardware.description.file import read_bench
 from svsa.hardware.realtime.configuration import build_guard, read_bench_design
 from svsa.hardware.safety.guard import Guard
 from tests.hardware.wired_bench import AT_REST, EMULATOR_BENCH, UNDISTURBED

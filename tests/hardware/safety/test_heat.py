@@ -5,11 +5,11 @@ import math
 import pytest
 
 from svsa.actuators.signals import Torque
-from svsa.hardware.file import read_bench
+from svsa.hardware.bench.settings import AXIS_WORDS
+from svsa.hardware.description.file import read_bench
 from svsa.hardware.realtime.configuration import build_guard
 from svsa.hardware.safety.guard import Guard
 from svsa.hardware.safety.heat import LINGERS_S, WARM, Winding, compute_lasting_torque
-from svsa.hardware.settings import AXIS_WORDS
 from tests.hardware.wired_bench import AT_REST, EMULATOR_BENCH, UNDISTURBED
 
 BENCH = read_bench(EMULATOR_BENCH)

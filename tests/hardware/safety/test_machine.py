@@ -8,9 +8,9 @@ import pytest
 from svsa.actuators.faults import FAULTS
 from svsa.actuators.signals import Torque
 from svsa.errors import ParameterError, StateError
+from svsa.hardware.bench.homing import STEPS
+from svsa.hardware.description.file import read_bench
 from svsa.hardware.drives.phase import Phase
-from svsa.hardware.file import read_bench
-from svsa.hardware.homing import STEPS
 from svsa.hardware.realtime.configuration import build_guard
 from svsa.hardware.safety.faults import Alarm
 from svsa.hardware.safety.machine import BenchStatus, Conditions, Machine

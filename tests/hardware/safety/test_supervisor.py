@@ -17,10 +17,10 @@ import can
 import pytest
 import tomli_w
 
+from svsa.hardware.bench.emulation import EMULATED_DATA, EMULATED_ID, Frame
+from svsa.hardware.description.file import read_bench
 from svsa.hardware.drives.robomodule import Current, encode
-from svsa.hardware.emulation import EMULATED_DATA, EMULATED_ID, Frame
 from svsa.hardware.emulator.socketcand import SocketcandServer
-from svsa.hardware.file import read_bench
 from svsa.hardware.safety.heartbeat import Heartbeats
 from svsa.hardware.safety.supervisor import Supervisor
 from tests.hardware.wired_bench import EMULATOR_BENCH

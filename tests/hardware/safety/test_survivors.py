@@ -11,8 +11,8 @@ from pathlib import Path
 
 import pytest
 
+from svsa.hardware.description.file import read_bench
 from svsa.hardware.emulator.launch import RunningEmulator, start_emulator
-from svsa.hardware.file import read_bench
 from tests.exhaustive import exhaust
 from tests.hardware.live_bench import write_bench
 from tests.hardware.wired_bench import EMULATOR_BENCH

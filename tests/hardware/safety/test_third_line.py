@@ -8,8 +8,8 @@ from typing import Any
 
 import pytest
 
+from svsa.hardware.description.file import read_bench
 from svsa.hardware.drives.bus import BusError
-from svsa.hardware.file import read_bench
 from svsa.hardware.realtime.loss import find_loss
 from svsa.hardware.safety import third_line
 from svsa.hardware.safety.heartbeat import Heartbeats

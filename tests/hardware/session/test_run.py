@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from svsa.actuators.signals import CHANNEL_INDEX, CHANNELS
-from svsa.hardware.file import read_bench
+from svsa.hardware.description.file import read_bench
 from svsa.hardware.realtime.configuration import build_bench_configuration
 from svsa.hardware.realtime.memory import CAPACITY_TICKS, LoopMemory
 from svsa.hardware.session.run import TWIN, BenchRun

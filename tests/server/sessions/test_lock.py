@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from svsa.errors import StateError
-from svsa.hardware.file import read_bench
+from svsa.hardware.description.file import read_bench
 from svsa.hardware.realtime import launch
 from svsa.hardware.realtime.launch import BenchError, BenchProcesses
 from svsa.hardware.realtime.link import Link, build_links

@@ -6,7 +6,7 @@ from typing import Annotated
 from fastapi import Body
 
 from svsa.errors import StateError
-from svsa.hardware.endurance import Endurance, find_endurance
+from svsa.hardware.safety.endurance import Endurance, find_endurance
 from svsa.hardware.session.session import BenchSession
 from svsa.runs.session.session import Session
 from svsa.simulation.plant.loads import Load

@@ -4,7 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, Field
 
-from svsa.hardware.homing import Axis
+from svsa.hardware.bench.homing import Axis
 from svsa.hardware.realtime.loss import Stopper
 from svsa.inputs.checked import Checked, quantity
 from svsa_server.problems import ShownText

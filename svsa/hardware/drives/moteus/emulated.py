@@ -9,10 +9,10 @@ import struct
 from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
+from svsa.hardware.bench.emulation import Frame
 from svsa.hardware.drives.emulated import EmulatedDrive, Motion
 from svsa.hardware.drives.moteus import NOP, REPLY, Mode, Register, build_id
 from svsa.hardware.drives.moteus.settings import EmulatedMoteusMotor
-from svsa.hardware.emulation import Frame
 
 DEFAULT_TIMEOUT_S = 0.1
 DRIVER_FAULT = 33

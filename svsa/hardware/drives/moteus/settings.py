@@ -2,8 +2,8 @@
 
 from typing import ClassVar
 
+from svsa.hardware.bench.settings import MotorSettings
 from svsa.hardware.drives.emulated import EmulatedMotor
-from svsa.hardware.settings import MotorSettings
 from svsa.inputs.checked import Number, Whole, quantity
 
 COUNTS_PER_REV = 100_000

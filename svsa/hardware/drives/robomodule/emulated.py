@@ -7,6 +7,7 @@ that; a command at another time is an error without effect; the last current is 
 import math
 from collections.abc import Callable
 
+from svsa.hardware.bench.emulation import Frame
 from svsa.hardware.drives.emulated import EmulatedDrive, Motion
 from svsa.hardware.drives.robomodule import (
     STALL_PROTECTION,
@@ -25,7 +26,6 @@ from svsa.hardware.drives.robomodule import (
     split_id,
 )
 from svsa.hardware.drives.robomodule.settings import EmulatedRoboModuleMotor
-from svsa.hardware.emulation import Frame
 
 SETTLE_US = 500_000
 VELOCITY_STEP_RPM = 30

@@ -2,9 +2,9 @@
 
 from typing import ClassVar
 
+from svsa.hardware.bench.settings import MotorSettings
 from svsa.hardware.drives.emulated import EmulatedMotor
 from svsa.hardware.drives.robomodule import Address
-from svsa.hardware.settings import MotorSettings
 from svsa.inputs.checked import Whole, quantity
 
 _GROUP = "Group of the drive's CAN address"

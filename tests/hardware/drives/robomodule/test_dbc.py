@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 
 import svsa
 from svsa.errors import ParameterError
-from svsa.hardware.dbc import describe_bench
+from svsa.hardware.description.dbc import describe_bench
+from svsa.hardware.description.file import read_bench
 from svsa.hardware.drives.robomodule import (
     LAYOUTS,
     Address,
@@ -19,7 +20,6 @@ from svsa.hardware.drives.robomodule import (
     encode,
 )
 from svsa.hardware.encoders.can_node import CanNodeSettings
-from svsa.hardware.file import read_bench
 
 from .test_frames import messages
 

@@ -6,6 +6,7 @@ from pathlib import Path
 import can
 import pytest
 
+from svsa.hardware.description.file import read_bench
 from svsa.hardware.drives.drive import GATE_JITTER_S, merge_stops
 from svsa.hardware.drives.installed import build_stop
 from svsa.hardware.drives.phase import Phase
@@ -29,7 +30,6 @@ from svsa.hardware.drives.robomodule.drive import (
     SETTLE_S,
     RoboModuleDrive,
 )
-from svsa.hardware.file import read_bench
 
 BENCH = read_bench(Path(__file__).parents[4] / "svsa" / "hardware" / "emulator" / "bench.toml")
 COMMAND_GATE_S = GAP_S - GATE_JITTER_S

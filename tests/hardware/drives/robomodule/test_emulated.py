@@ -4,6 +4,7 @@ import math
 
 import pytest
 
+from svsa.hardware.bench.emulation import Frame
 from svsa.hardware.drives.emulated import Motion
 from svsa.hardware.drives.robomodule import (
     Command,
@@ -21,7 +22,6 @@ from svsa.hardware.drives.robomodule import (
     encode,
 )
 from svsa.hardware.drives.robomodule.emulated import SETTLE_US, EmulatedRoboModuleDrive
-from svsa.hardware.emulation import Frame
 from svsa.hardware.emulator.parameters import EmulatorParameters
 
 START_US = 10_000_000

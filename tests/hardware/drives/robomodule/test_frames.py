@@ -7,6 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from svsa.errors import SvsaError
+from svsa.hardware.bench.emulation import ADVANCE_ID, EMULATED_ID, decode_time, encode_time
 from svsa.hardware.drives.robomodule import (
     LAYOUTS,
     Address,
@@ -33,7 +34,6 @@ from svsa.hardware.drives.robomodule import (
     encode,
     split_id,
 )
-from svsa.hardware.emulation import ADVANCE_ID, EMULATED_ID, decode_time, encode_time
 
 MANUAL = [
     (Current(5000, 1000), "13 88 03 E8 55 55 55 55"),

@@ -6,20 +6,20 @@ import math
 import can
 
 from svsa.actuators.signals import Measurement, State
-from svsa.hardware.clock import BenchClock
+from svsa.hardware.bench.emulation import EMULATED_ID
+from svsa.hardware.bench.reading import Reading
+from svsa.hardware.bench.real_motors import RealMotors
+from svsa.hardware.bench.settings import AXIS_WORDS
+from svsa.hardware.description.file import BenchFile
 from svsa.hardware.drives.bus import BUS_TROUBLE, take_waiting
 from svsa.hardware.drives.conversion import MotorScale, Unwrapped, build_deflection_scale
 from svsa.hardware.drives.drive import EXTENDED, Drive
 from svsa.hardware.drives.phase import Phase
-from svsa.hardware.emulation import EMULATED_ID
 from svsa.hardware.encoders import read_source
 from svsa.hardware.encoders.source import EncoderError
-from svsa.hardware.file import BenchFile
-from svsa.hardware.reading import Reading
-from svsa.hardware.real_motors import RealMotors
+from svsa.hardware.plant.clock import BenchClock
 from svsa.hardware.safety.faults import Alarm
 from svsa.hardware.safety.standstill import NewCounts
-from svsa.hardware.settings import AXIS_WORDS
 
 MAX_FRAMES_A_TICK = 200
 MAX_FRAMES_UNHEARD = 100_000

@@ -3,7 +3,7 @@
 import pytest
 
 from svsa.errors import ParameterError, StateError
-from svsa.hardware.homing import DONE, STEPS, Homing, get_instruction
+from svsa.hardware.bench.homing import DONE, STEPS, Homing, get_instruction
 
 
 def test_marks_are_confirmed_in_order_with_the_user():

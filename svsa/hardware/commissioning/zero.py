@@ -7,18 +7,18 @@ from pathlib import Path
 import numpy as np
 
 from svsa.errors import StateError
-from svsa.hardware.calibration import (
+from svsa.hardware.bench.homing import Homing
+from svsa.hardware.bench.settings import AXIS_WORDS
+from svsa.hardware.commissioning.probe import BusOpener, Clock, Probe
+from svsa.hardware.description.calibration import (
     Calibration,
     compute_fingerprint,
     find_calibration,
     write_calibration,
 )
-from svsa.hardware.commissioning.probe import BusOpener, Clock, Probe
+from svsa.hardware.description.file import BenchFile
 from svsa.hardware.drives.bus import open_bus
 from svsa.hardware.encoders.source import EncoderError
-from svsa.hardware.file import BenchFile
-from svsa.hardware.homing import Homing
-from svsa.hardware.settings import AXIS_WORDS
 
 LISTEN_S = 0.5
 STILL_COUNTS = 2

@@ -11,10 +11,10 @@ import pytest
 from svsa.actuators.faults import BENCH_FAULTS
 from svsa.actuators.signals import Disturbance, Torque
 from svsa.errors import StateError
+from svsa.hardware.bench.emulation import Frame
 from svsa.hardware.drives.drive import merge_stops
 from svsa.hardware.drives.installed import build_stop
 from svsa.hardware.drives.robomodule import Current, Feedback, encode
-from svsa.hardware.emulation import Frame
 from svsa.hardware.emulator.faults import (
     BrownOut,
     BusErrors,

@@ -8,9 +8,9 @@ import pytest
 
 from svsa.actuators.signals import Torque
 from svsa.errors import StateError
+from svsa.hardware.bench.emulation import Frame
+from svsa.hardware.description.file import read_bench
 from svsa.hardware.drives.robomodule import Feedback, encode
-from svsa.hardware.emulation import Frame
-from svsa.hardware.file import read_bench
 from svsa.hardware.safety.machine import BenchStatus
 from tests.hardware.wired_bench import AT_REST, EMULATOR_BENCH, FakeBeats, WiredBench
 

@@ -9,12 +9,12 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from svsa.actuators.signals import State, Torque
-from svsa.hardware.calibration import Calibration, compute_fingerprint
+from svsa.hardware.description.calibration import Calibration, compute_fingerprint
+from svsa.hardware.description.file import read_bench
 from svsa.hardware.drives.drive import GATE_JITTER_S
 from svsa.hardware.drives.robomodule import Command, split_id
 from svsa.hardware.drives.robomodule.drive import GAP_S
 from svsa.hardware.emulator.parameters import EmulatedDeflection, EmulatorParameters
-from svsa.hardware.file import read_bench
 from svsa.hardware.safety.machine import BenchStatus
 from tests.hardware import wired_bench
 from tests.hardware.wired_bench import AT_REST, EMULATOR_BENCH, WiredBench

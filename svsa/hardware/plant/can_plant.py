@@ -7,22 +7,22 @@ import can
 
 from svsa.actuators.signals import Disturbance, State, Torque
 from svsa.errors import Fault, StateError, SvsaError
-from svsa.hardware.calibration import Calibration, list_problems
-from svsa.hardware.clock import BenchClock
+from svsa.hardware.bench.homing import Axis
+from svsa.hardware.bench.reading import Reading
+from svsa.hardware.bench.settings import AXIS_WORDS
+from svsa.hardware.description.calibration import Calibration, list_problems
+from svsa.hardware.description.file import BenchFile
 from svsa.hardware.drives.bus import BUS_TROUBLE, DELIVERY_S, open_bus
 from svsa.hardware.drives.conversion import build_motor_scale, compute_current_ma
 from svsa.hardware.drives.drive import Drive, merge_stops
 from svsa.hardware.drives.installed import build_drive, build_stop
 from svsa.hardware.drives.phase import Phase
-from svsa.hardware.file import BenchFile
-from svsa.hardware.homing import Axis
-from svsa.hardware.reading import Reading
+from svsa.hardware.plant.clock import BenchClock
+from svsa.hardware.plant.sensing import Sensing
 from svsa.hardware.safety.faults import Alarm
 from svsa.hardware.safety.guard import Guard, MotorGuard
 from svsa.hardware.safety.heartbeat import Heartbeats, Slot
 from svsa.hardware.safety.machine import NO_TORQUE, BenchStatus, Conditions, Machine
-from svsa.hardware.sensing import Sensing
-from svsa.hardware.settings import AXIS_WORDS
 
 HOME_TOLERANCE_RAD = 0.05
 PAUSE_S = 0.0001

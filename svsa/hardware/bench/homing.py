@@ -8,7 +8,7 @@ survives a power cycle, in the calibration record.
 from typing import Literal, NamedTuple
 
 from svsa.errors import ParameterError, StateError, Violation
-from svsa.hardware.settings import AXIS_WORDS
+from svsa.hardware.bench.settings import AXIS_WORDS
 
 Axis = Literal["link", "motor1", "motor2"]
 

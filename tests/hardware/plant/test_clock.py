@@ -5,7 +5,9 @@ import time
 import can
 import pytest
 
-from svsa.hardware.clock import (
+from svsa.hardware.bench.emulation import ADVANCE_ID, decode_time, encode_time
+from svsa.hardware.description.file import read_bench
+from svsa.hardware.plant.clock import (
     CATCH_UP_S,
     DRIFT,
     SPIN_S,
@@ -15,8 +17,6 @@ from svsa.hardware.clock import (
     WallClock,
     choose_clock,
 )
-from svsa.hardware.emulation import ADVANCE_ID, decode_time, encode_time
-from svsa.hardware.file import read_bench
 from tests.hardware.wired_bench import EMULATOR_BENCH
 
 

@@ -8,7 +8,7 @@ from typing import Literal
 import numpy as np
 
 from svsa.actuators.signals import CHANNELS, TORQUES
-from svsa.hardware.file import BenchFile
+from svsa.hardware.description.file import BenchFile
 from svsa.hardware.safety.heat import Winding
 from svsa.runs.configuration import Configuration
 from svsa.runs.run import Run

@@ -13,8 +13,8 @@ from pathlib import Path
 import tomli_w
 
 from svsa.errors import ParameterError, Violation
-from svsa.hardware.file import BenchFile
-from svsa.hardware.settings import DEFAULT_DRIVE
+from svsa.hardware.bench.settings import DEFAULT_DRIVE
+from svsa.hardware.description.file import BenchFile
 from svsa.inputs.checked import Checked, Flag, Whole, quantity
 from svsa.inputs.toml_file import read_toml
 

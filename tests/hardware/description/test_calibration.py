@@ -5,7 +5,9 @@ from datetime import datetime
 import pytest
 
 from svsa.errors import ParameterError, StateError
-from svsa.hardware.calibration import (
+from svsa.hardware.bench.homing import STEPS, Homing
+from svsa.hardware.commissioning.zero import calibrate, read_deflection_zero
+from svsa.hardware.description.calibration import (
     Calibration,
     compute_fingerprint,
     find_calibration,
@@ -14,14 +16,12 @@ from svsa.hardware.calibration import (
     note_signs,
     write_calibration,
 )
+from svsa.hardware.description.file import read_bench
 from svsa.hardware.drives.bus import BusError
 from svsa.hardware.emulator.emulator import Emulator
 from svsa.hardware.emulator.faults import DropFrames
 from svsa.hardware.emulator.parameters import EmulatedDeflection, EmulatorParameters
 from svsa.hardware.encoders.source import EncoderError
-from svsa.hardware.file import read_bench
-from svsa.hardware.homing import STEPS, Homing
-from svsa.hardware.zero import calibrate, read_deflection_zero
 from svsa.simulation.plant.loads.constant import ConstantLoad
 from tests.hardware.emulator.bus_in_time import EMULATOR_BENCH, EmulatorBus, copy_bench
 

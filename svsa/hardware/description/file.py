@@ -11,8 +11,8 @@ from pydantic import BeforeValidator, SerializeAsAny
 
 from svsa.actuators.parameters import SVSA
 from svsa.errors import ParameterError, Violation
+from svsa.hardware.bench.settings import AXIS_WORDS, BusSettings, DeflectionSettings, MotorSettings
 from svsa.hardware.drives.installed import get_family, read_motor
-from svsa.hardware.settings import AXIS_WORDS, BusSettings, DeflectionSettings, MotorSettings
 from svsa.inputs.checked import Checked, Flag, Number, Whole, quantity
 from svsa.inputs.toml_file import read_toml
 

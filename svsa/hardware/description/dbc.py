@@ -8,10 +8,10 @@ from cantools.database import Database
 from cantools.database.can import Message, Node, Signal
 
 from svsa.errors import ParameterError, Violation
+from svsa.hardware.description.file import BenchFile
 from svsa.hardware.drives.family import HOST
 from svsa.hardware.drives.installed import get_family
 from svsa.hardware.encoders.can_node import CanNodeSettings
-from svsa.hardware.file import BenchFile
 
 ENCODER = "deflection_encoder"
 

@@ -3,7 +3,7 @@
 import pytest
 
 from svsa.errors import ParameterError
-from svsa.hardware.file import read_bench
+from svsa.hardware.description.file import read_bench
 from tests.hardware.emulator.bus_in_time import copy_bench
 
 WRONG = [

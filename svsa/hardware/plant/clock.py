@@ -9,8 +9,8 @@ from typing import Protocol
 import can
 
 from svsa.errors import SvsaError
-from svsa.hardware.emulation import ADVANCE_ID, decode_time, encode_time
-from svsa.hardware.file import BenchFile
+from svsa.hardware.bench.emulation import ADVANCE_ID, decode_time, encode_time
+from svsa.hardware.description.file import BenchFile
 
 _CLOCK_MONOTONIC = 1
 _TIMER_ABSTIME = 1
