@@ -51,11 +51,11 @@ from svsa_server.sessions.bench_start import open_bench
 from svsa_server.sessions.hosted import log_ended_lease
 from svsa_server.sessions.indexing import Indexing
 from svsa_server.sessions.laboratory import SHARED_SESSION, Laboratory, build_shared_session
-from svsa_server.sessions.lock import run_waiting
 from svsa_server.sessions.ownership import find_owner
 from svsa_server.sessions.preparation import start_rehearsal
 from svsa_server.sessions.quota import DiskQuota
 from svsa_server.sessions.recording import Recordings, open_catalogue
+from svsa_server.sessions.waiting import run_waiting
 
 if TYPE_CHECKING:
     from svsa_server.lti.tool import LtiTool

@@ -10,7 +10,7 @@ from svsa.runs.command import Set, is_held
 from svsa.runs.configuration import Configuration
 from svsa.runs.session.session import Session
 from svsa.teaching.course.steps import Experiment
-from svsa_server.sessions.lock import run_waiting
+from svsa_server.sessions.waiting import run_waiting
 
 REPEAT_S = 10.0
 _RECOVERY_HINT = (

@@ -10,7 +10,7 @@ from svsa.analysis.identification.excitation import EXCITATION_DURATION_S, build
 from svsa.errors import StateError, SvsaError
 from svsa.runs.session.session import Session
 from svsa_server.schemas.runs.run import ExcitationState
-from svsa_server.sessions.lock import run_waiting
+from svsa_server.sessions.waiting import run_waiting
 
 FASTEST_SPEED = 10.0
 TAG = "identification"

@@ -25,8 +25,8 @@ from svsa_server.access.roles import INSTRUCTOR
 from svsa_server.leases.lease import ControlLease
 from svsa_server.problems import TooManyError, UnknownError
 from svsa_server.sessions.hosted import HostedSession, LogEndedLease
-from svsa_server.sessions.lock import pause
 from svsa_server.sessions.preparation import prepare_change
+from svsa_server.sessions.waiting import pause
 
 WAKE_PERIOD_S = 1.0 / 60.0
 OPERATOR_POLL_S = 0.005

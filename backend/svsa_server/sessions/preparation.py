@@ -20,7 +20,7 @@ from svsa.runs.command import Command, fold
 from svsa.runs.configuration import Configuration
 from svsa.runs.fault import build_fault
 from svsa.runs.session.journal import Journal
-from svsa_server.sessions.lock import WaitingCall, pause
+from svsa_server.sessions.waiting import WaitingCall, pause
 
 POLL_S = 0.005
 MAX_FORMS = 10_000

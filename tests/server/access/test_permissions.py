@@ -29,7 +29,7 @@ from svsa_server.app import build_app
 from svsa_server.openapi import PERMISSION
 from svsa_server.routes import build_routes
 from svsa_server.routing import OwnedRoute, build_router
-from svsa_server.sessions.lock import WaitingRoute
+from svsa_server.sessions.waiting import WaitingRoute
 from tests.server.schema import SCHEMA
 
 

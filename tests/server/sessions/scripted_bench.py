@@ -18,7 +18,7 @@ from svsa.hardware.session.session import BenchSession
 from svsa.runs.paper import get_figure
 from svsa.runs.run import Start
 from svsa.simulation.loop.lane import AT_REST
-from svsa_server.sessions.lock import pause
+from svsa_server.sessions.waiting import pause
 from tests.hardware.wired_bench import EMULATOR_BENCH
 from tests.runs.session.loop_ticks import write
 

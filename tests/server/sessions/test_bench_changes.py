@@ -21,8 +21,8 @@ from svsa.simulation.plant.loads.series import SeriesLoad
 from svsa_server.routes.lab import settings
 from svsa_server.schemas.lab.gain import GainsRequest
 from svsa_server.sessions.hosted import HostedSession
-from svsa_server.sessions.lock import run_waiting
 from svsa_server.sessions.state import build_progress
+from svsa_server.sessions.waiting import run_waiting
 from tests.runs.session.loop_ticks import write
 from tests.server.sessions.scripted_bench import Processes, begin_run, build_bench_session, say
 

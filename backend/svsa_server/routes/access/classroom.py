@@ -31,7 +31,7 @@ from svsa_server.schemas.access.classroom import (
 )
 from svsa_server.sessions.hosted import HostedSession
 from svsa_server.sessions.laboratory import SHARED_SESSION, Laboratory
-from svsa_server.sessions.lock import run_waiting
+from svsa_server.sessions.waiting import run_waiting
 
 router = build_router("/class", tags=["class"], responses={409: REFUSALS[409]})
 _SCALE = 6

@@ -15,8 +15,8 @@ from svsa_server.routes.depends import REFUSALS, NamedSession
 from svsa_server.routing import build_router
 from svsa_server.schemas.hardware.bench import HomingRequest
 from svsa_server.schemas.lab.session import SessionState
-from svsa_server.sessions.lock import WaitingRoute
 from svsa_server.sessions.state import build_state
+from svsa_server.sessions.waiting import WaitingRoute
 
 router = build_router(
     "/sessions/{session}/bench", tags=["bench"], responses=REFUSALS, route_class=WaitingRoute

@@ -12,8 +12,8 @@ from svsa_server.routes.depends import CHANGED, REFUSALS, NamedSession, check_un
 from svsa_server.routing import build_router
 from svsa_server.schemas.lab.arm import AT_ONCE, ArmPatch, NamedArmState
 from svsa_server.schemas.lab.session import SessionState
-from svsa_server.sessions.lock import WaitingRoute
 from svsa_server.sessions.state import build_state
+from svsa_server.sessions.waiting import WaitingRoute
 
 router = build_router("", tags=["lab"], responses=REFUSALS | CHANGED, route_class=WaitingRoute)
 

@@ -13,7 +13,7 @@ from svsa.runs.metrics import MEASURED
 from svsa_server.access.permissions import OBSERVER, allow
 from svsa_server.routes.depends import REFUSALS, NamedSession
 from svsa_server.routing import build_router
-from svsa_server.sessions.lock import WaitingRoute
+from svsa_server.sessions.waiting import WaitingRoute
 
 router = build_router("/sessions", tags=["session"], responses=REFUSALS, route_class=WaitingRoute)
 

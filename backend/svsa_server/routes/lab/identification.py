@@ -21,8 +21,8 @@ from svsa_server.schemas.lab.session import SessionState
 from svsa_server.schemas.lab.setting import ParameterFileRequest
 from svsa_server.schemas.runs.run import ExcitationRequest
 from svsa_server.sessions.excitation import TAG
-from svsa_server.sessions.lock import WaitingRoute, run_waiting
 from svsa_server.sessions.state import build_state
+from svsa_server.sessions.waiting import WaitingRoute, run_waiting
 
 router = build_router(
     "/sessions/{session}", tags=["identification"], responses=REFUSALS, route_class=WaitingRoute

@@ -13,7 +13,7 @@ from svsa_server.schemas.lab.kind import Kinds, list_kinds
 from svsa_server.schemas.lab.lab import Health, Readiness
 from svsa_server.schemas.lab.law import LawState, list_laws
 from svsa_server.sessions.laboratory import SHARED_SESSION
-from svsa_server.sessions.lock import WaitingRoute
+from svsa_server.sessions.waiting import WaitingRoute
 
 router = build_router(tags=["lab"], route_class=WaitingRoute)
 

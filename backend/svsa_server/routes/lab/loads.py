@@ -14,8 +14,8 @@ from svsa_server.problems import UnknownError
 from svsa_server.routes.depends import CREATED, REFUSALS, Locate, NamedSession
 from svsa_server.routing import build_router
 from svsa_server.schemas.lab.session import AddedLoad, LoadState, SessionState
-from svsa_server.sessions.lock import WaitingRoute
 from svsa_server.sessions.state import build_state
+from svsa_server.sessions.waiting import WaitingRoute
 
 router = build_router(
     "/sessions/{session}/loads", tags=["loads"], responses=REFUSALS, route_class=WaitingRoute

@@ -33,10 +33,10 @@ from svsa_server.schemas.lab.session import (
 from svsa_server.schemas.lab.stream import StreamMessage, describe_stream, list_stream_parameters
 from svsa_server.sessions.cursor import BATCH_PERIOD_S
 from svsa_server.sessions.kind import check_svsa
-from svsa_server.sessions.lock import WaitingRoute, run_waiting
 from svsa_server.sessions.opening import open_session
 from svsa_server.sessions.state import build_state
 from svsa_server.sessions.stream import stream_session
+from svsa_server.sessions.waiting import WaitingRoute, run_waiting
 
 router = build_router("/sessions", tags=["session"], responses=REFUSALS, route_class=WaitingRoute)
 

@@ -29,8 +29,8 @@ from svsa_server.schemas.lab.setting import (
     LawRequest,
     build_patch,
 )
-from svsa_server.sessions.lock import WaitingRoute
 from svsa_server.sessions.state import build_state
+from svsa_server.sessions.waiting import WaitingRoute
 
 router = build_router(
     "/sessions/{session}",

@@ -56,7 +56,7 @@ from svsa_server.schemas.teaching.course import (
 from svsa_server.sessions.bench_start import check_at_rest, check_for_step, set_up_bench
 from svsa_server.sessions.hosted import BeforeExercise, HostedSession
 from svsa_server.sessions.kind import check_arm, check_svsa
-from svsa_server.sessions.lock import run_waiting
+from svsa_server.sessions.waiting import run_waiting
 
 router = build_router(tags=["course"], responses=REFUSALS)
 ExerciseName = Annotated[

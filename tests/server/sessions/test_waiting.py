@@ -20,7 +20,7 @@ from svsa.hardware.session.supervised_loop import SupervisedLoop
 from svsa.runs.paper import get_figure
 from svsa_server.sessions import laboratory
 from svsa_server.sessions.laboratory import EmulatorOperator
-from svsa_server.sessions.lock import pause, run_waiting
+from svsa_server.sessions.waiting import pause, run_waiting
 from tests.hardware.wired_bench import EMULATOR_BENCH
 
 LONG_S = 60.0
