@@ -92,11 +92,11 @@ async def submit_law(
     law = submission.law.encode()
     key = digest_law(law)
     started = await asyncio.to_thread(Board.find_started, _find_folder(request))
-    if started is not None and started.find(key) is not None:
+    if started is not None and await asyncio.to_thread(started.find, key) is not None:
         locate(f"/leaderboard/entries/{key}/replay")
         return SubmissionState(key=key, job=None)
     await asyncio.to_thread(check_isolation)
-    board = await _open_board(request)
+    board = await _open_board(request) if started is None else started
     task = Task(board.folder, submission.name, law, person.name or submission.author, person.id)
     job = _begin(request, person, task)
     locate(f"/jobs/{job.id}")
