@@ -1,0 +1,182 @@
+/** Every common class of the style sheets, what it is for, and a sample. */
+import type { ComponentChildren } from "preact";
+import { Choice } from "../src/core/widgets/form";
+import { NumberField } from "../src/core/widgets/numberinput";
+import { Switch } from "../src/core/widgets/switch";
+import { Table } from "../src/core/widgets/tables";
+
+export interface Entry {
+  /** The class, with its variants. */
+  name: string;
+  use: string;
+  sample: ComponentChildren;
+}
+
+const ignore = () => undefined;
+const boxes = (look: string, count = 3) => (
+  <div class={look}>
+    {Array.from({ length: count }, (_, index) => (
+      <span key={index} class="tag">
+        {index + 1}
+      </span>
+    ))}
+  </div>
+);
+const words = (look: string) => <p class={look}>Position error 0.5°</p>;
+
+export const LAYOUT: readonly Entry[] = [
+  { name: "stack", use: "One below the other, with equal distances.", sample: boxes("stack") },
+  { name: "row", use: "Side by side; wraps.", sample: boxes("row", 12) },
+  { name: "spread", use: "A row whose parts are at both ends.", sample: boxes("spread", 2) },
+  { name: "pair", use: "Two equal columns, such as two fields.", sample: boxes("pair", 4) },
+  { name: "halves", use: "Two columns, or one where two do not fit.", sample: boxes("halves", 2) },
+  { name: "grow", use: "In a row: takes the rest.", sample: null },
+  { name: "end", use: "In a row: moves to the end.", sample: null },
+  { name: "wide block", use: "All columns of a grid; the whole width.", sample: null },
+  { name: "scroll", use: "Scrolls horizontally.", sample: null },
+];
+
+export const TEXT: readonly Entry[] = [
+  { name: "muted good bad", use: "Color: less important, good, wrong.", sample: words("bad") },
+  { name: "small strong", use: "Size and weight.", sample: words("small strong") },
+  { name: "number", use: "Digits of equal width, right-aligned.", sample: words("number") },
+  {
+    name: "visually-hidden skip",
+    use: "Screen readers only; a link that skips parts.",
+    sample: null,
+  },
+  { name: "nowrap breaks clip", use: "One line; breaks anywhere; cut.", sample: words("clip") },
+  { name: "hint unit", use: "Explanation; unit of a number.", sample: words("hint") },
+  { name: "problem as-written", use: "Error; output of a program.", sample: words("problem") },
+];
+
+export const PARTS: readonly Entry[] = [
+  { name: "card desk", use: "A surface with a title; a page with a side column.", sample: null },
+  { name: "panel popup", use: "Dialogs: the components Panel and Popup.", sample: null },
+  { name: "surface", use: "Panels, cards, tables on the background.", sample: words("surface") },
+  {
+    name: "button",
+    use: "is-primary, is-small, is-icon.",
+    sample: (
+      <p class="row">
+        <button type="button" class="button is-primary">
+          Start
+        </button>
+        <button type="button" class="button is-small">
+          Reset
+        </button>
+      </p>
+    ),
+  },
+  {
+    name: "quiet",
+    use: "A button without a frame.",
+    sample: (
+      <button type="button" class="quiet">
+        Remove load
+      </button>
+    ),
+  },
+  {
+    name: "choice",
+    use: "One of a few options: the component Choice.",
+    sample: (
+      <Choice
+        label="Effects"
+        options={[
+          { value: "ideal", label: "Ideal" },
+          { value: "full", label: "Full" },
+        ]}
+        value="ideal"
+        onChoose={ignore}
+      />
+    ),
+  },
+  {
+    name: "chip",
+    use: "One of a few options, a chip each.",
+    sample: (
+      <label class="chip">
+        <input type="radio" checked /> <span>10 s</span>
+      </label>
+    ),
+  },
+  {
+    name: "check",
+    use: "On or off: the component Switch.",
+    sample: <Switch label="Friction" isOn onToggle={async () => undefined} />,
+  },
+  {
+    name: "form field",
+    use: "Labels above their fields.",
+    sample: (
+      <div class="form">
+        <NumberField label="Stiffness" unit="N·m/rad" value={15} onInput={ignore} />
+      </div>
+    ),
+  },
+  {
+    name: "table metrics metrics-group all-metrics present",
+    use: "The component Table; metrics has numbers on the right.",
+    sample: (
+      <Table heads={["Law", "Error, °"]} look="metrics" label="Sample">
+        <tr>
+          <th scope="row">NDOBC</th>
+          <td>0.31</td>
+        </tr>
+      </Table>
+    ),
+  },
+  {
+    name: "tabs",
+    use: "Links to pages, in groups.",
+    sample: (
+      <nav class="tabs row" aria-label="Sample">
+        <ul class="row">
+          <li>
+            <a href="#lab" aria-current="page">
+              Lab
+            </a>
+          </li>
+          <li>
+            <a href="#runs">Runs</a>
+          </li>
+        </ul>
+      </nav>
+    ),
+  },
+  {
+    name: "facts",
+    use: "Names and values, one pair per line.",
+    sample: (
+      <dl class="facts">
+        <div>
+          <dt>Rate</dt>
+          <dd>1000 Hz</dd>
+        </div>
+      </dl>
+    ),
+  },
+  {
+    name: "note tone",
+    use: "Set apart from the text: is-accent, is-good, is-warn, is-bad.",
+    sample: <p class="note is-warn">The torque is limited.</p>,
+  },
+  {
+    name: "menu",
+    use: "Links and buttons, one per line.",
+    sample: (
+      <div class="menu">
+        <button type="button">Export run</button>
+      </div>
+    ),
+  },
+  { name: "tag", use: "A word that classifies.", sample: <span class="tag">example</span> },
+  { name: "dot", use: "Color of a lane.", sample: <span class="dot" /> },
+  {
+    name: "bullets",
+    use: "A list with its marks.",
+    sample: <ul class="bullets">{<li>Load</li>}</ul>,
+  },
+  { name: "drawing grid", use: "An SVG as wide as its place; grid for its lines.", sample: null },
+];
