@@ -259,10 +259,10 @@ def prepare(
     from svsa.runs.experiment import build_actuator_experiment
     from svsa.runs.result.simulate import simulate
     from svsa.runs.result.simulate_arm import simulate_arm
-    from svsa.simulation.loop.loop import advance_in_place
+    from svsa.simulation.loop.loop import advance
 
     names = list_law_names() if laws is None else tuple(laws)
-    if is_compiled_before(advance_in_place.write_results):
+    if is_compiled_before(advance):
         text = "Loading the compiled control loop …"
     else:
         law = "1 law" if len(names) == 1 else f"{len(names)} laws"

@@ -11,8 +11,8 @@ from svsa.actuators.parameters import SVSA
 from svsa.control.installed import get_law
 from svsa.numerics.compilation import is_compiled_before
 from svsa.numerics.separate_compilation import build_child, can_store
-from svsa.simulation.arm.loop import advance_arm_in_place
-from svsa.simulation.loop.loop import advance_in_place
+from svsa.simulation.arm.loop import advance_arm
+from svsa.simulation.loop.loop import advance
 
 LOWEST_PRIORITY = 19
 COMPILE = f"import os; os.nice({LOWEST_PRIORITY}); from svsa.cli import main; main()"
@@ -35,8 +35,7 @@ def is_compiled_for(actuator: str, law: str) -> bool:
     control = get_law(law).control
     if actuator == SVSA or not hasattr(control, "py_func"):
         return True
-    loop = advance_in_place.write_results
-    return is_compiled_before(loop, _OTHER_LOOP) and is_compiled_before(control, _OTHER_LAW)
+    return is_compiled_before(advance, _OTHER_LOOP) and is_compiled_before(control, _OTHER_LAW)
 
 
 async def compile_for(actuator: str, law: str) -> None:
@@ -60,13 +59,13 @@ async def compile_arm(actuators: tuple[str, str], law: str) -> None:
 
 def _is_compiled_for_arm(actuators: tuple[str, str], law: str) -> bool:
     plants = [Actuator.__name__ if name == SVSA else _OTHER_LOOP for name in actuators]
-    loops = advance_arm_in_place.write_results._cache.list_types()
+    loops = advance_arm._cache.list_types()
     is_compiled = any(_PLANT.findall(str(types)) == plants for types in loops)
     return is_compiled and all(is_compiled_for(name, law) for name in actuators)
 
 
 async def _compile(*arguments: str) -> None:
-    if not can_store(advance_in_place):
+    if not can_store(advance):
         return
     _begun[:] = [time.monotonic()]
     process = await asyncio.create_subprocess_exec(

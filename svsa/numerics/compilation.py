@@ -29,12 +29,10 @@ from typing import Any
 
 import numba
 from numba.core import config, event
-from numba.core.registry import CPUDispatcher
 from numba.np import linalg
 
 from svsa.numerics.code_cache import SharedCache, open_folder
 from svsa.numerics.fused import FusingCompiler
-from svsa.numerics.results import SIMPLE, Evaluated
 from svsa.numerics.separate_compilation import prepare_code
 
 
@@ -64,8 +62,7 @@ _OPTIONS: dict[str, Any] = {
     # Without inlining a run of 10 s took 13.8 ms instead of 4.4 ms (same equations, before all
     # other improvements).
     "forceinline": True,
-    "nopython": True,
-    "boundscheck": None,
+    "pipeline_class": FusingCompiler,
 }
 _choosing_folder = Lock()
 """numba reads the folder of a function's cache from a setting that all threads share."""
@@ -144,21 +141,23 @@ def compiled(function: Callable[..., Any]) -> Any:
 
     Functions that are called only by compiled functions are compiled without the conversion of
     Python values, which would take a third of the compile time. The conversion is added at the
-    first call from Python; see `svsa.numerics.results` for functions with several results.
+    first call from Python.
     """
     file = Path(function.__code__.co_filename)
     folder = _open_cache(function.__module__, file) if file.exists() else None
-    if function.__annotations__.get("return", "") in SIMPLE:
-        called = _compile_into(CPUDispatcher, folder, function)
-    else:
-        called = _compile_into(Evaluated, folder, function, no_cpython_wrapper=True)
-        called.compile_entry = lambda entry: _prepare(_compile_into(CPUDispatcher, folder, entry))
-    _prepare(called)
+    called = _compile_into(folder, function)
 
     @cache
     def open_inlined() -> Any:
-        return _compile_into(CPUDispatcher, folder and folder / "inlined", function, **_NO_WRAPPERS)
+        return _compile_into(folder and folder / "inlined", function, **_NO_WRAPPERS)
 
+    compile_here = called.compile
+
+    def compile_prepared(signature: Any) -> Any:
+        prepare_code(called, signature)
+        return compile_here(signature)
+
+    called.compile = compile_prepared
     # numba calls these two when it compiles a caller of this function. Without wrappers the first
     # law took 11 s of processor time to compile instead of 19.5 s.
     called.get_call_template = lambda *given: open_inlined().get_call_template(*given)
@@ -166,22 +165,8 @@ def compiled(function: Callable[..., Any]) -> Any:
     return called
 
 
-def _prepare(dispatcher: Any) -> Any:
-    """Compile a function in a child process if this process uses children."""
-    compile_here = dispatcher.compile
-
-    def compile_prepared(signature: Any) -> Any:
-        prepare_code(dispatcher, signature)
-        return compile_here(signature)
-
-    dispatcher.compile = compile_prepared
-    return dispatcher
-
-
-def _compile_into(
-    kind: type[CPUDispatcher], folder: Path | None, function: Callable[..., Any], **options: bool
-) -> Any:
-    dispatcher = kind(function, None, _OPTIONS | options, FusingCompiler)
+def _compile_into(folder: Path | None, function: Callable[..., Any], **options: Any) -> Any:
+    dispatcher = numba.njit(**_OPTIONS, **options)(function)
     if folder is None:
         return dispatcher
     with _choosing_folder:

@@ -19,11 +19,10 @@ from numba.core.compiler import CompilerBase, DefaultPassBuilder
 from numba.core.compiler_machinery import FunctionPass, register_pass
 from numba.core.ir_utils import build_definitions, mk_unique_var
 from numba.core.postproc import PostProcessor
-from numba.core.typed_passes import NopythonTypeInference
 from numba.core.untyped_passes import IRProcessing
 from numba.extending import intrinsic, overload
 
-from svsa.numerics.results import RejectObjects
+from svsa.numerics.boxing import replace_boxing
 from svsa.numerics.simd.number import INLINED, VECTOR, Vector, call_vector
 
 
@@ -156,16 +155,17 @@ _SUMS = (operator.add, operator.sub)
 
 
 class FusingCompiler(CompilerBase):
-    """numba's compiler with products fused into their sums, for results that Python can read."""
+    """numba's compiler with products fused into their sums.
+
+    Its results are returned to Python by `svsa.numerics.boxing`.
+    """
 
     def define_pipelines(self) -> list[Any]:
-        """Return numba's passes with the fusing pass right after a function is read, and the check
-        of its result right after the types are known.
-        """
+        """Return numba's passes with the fusing pass right after a function is read."""
+        replace_boxing()
         passes = DefaultPassBuilder.define_nopython_pipeline(self.state)
         # numba inlines in a later pass. If fusing came after that, the bits of an equation would
         # depend on its caller.
         passes.add_pass_after(_FuseProducts, IRProcessing)
-        passes.add_pass_after(RejectObjects, NopythonTypeInference)
         passes.finalize()
         return [passes]

@@ -6,7 +6,6 @@ reported and the function is compiled in the server.
 """
 
 import contextlib
-import operator
 import os
 import pickle
 import shutil
@@ -178,10 +177,7 @@ def _is_available(dispatcher: Any, signature: Any) -> bool:
 
 
 def _find_function(module: str, name: str) -> Any:
-    try:
-        return operator.attrgetter(name)(sys.modules[module])
-    except (AttributeError, KeyError):
-        return None
+    return getattr(sys.modules.get(module), name, None)
 
 
 def compile_request() -> None:

@@ -13,17 +13,14 @@ from tests.server.test_full_disk import filled, mount_disk
 PROGRAM = """
 from svsa.numerics import separate_compilation
 from svsa.numerics.compilation import watch_compilation
-from svsa.numerics.trigonometry import cos
-from svsa.simulation.plant.sensors import build_positions
-from svsa.simulation.loop.lane import AT_REST
+from svsa.numerics.trigonometry import cos, sin
 
 separate_compilation.CHILD = {child} or separate_compilation.CHILD
 separate_compilation.compile_in_children(print)
 names = []
 with watch_compilation(names.append):
-    assert cos(0.0) == 1.0
-    assert build_positions(AT_REST) == (0.0, 0.0, 0.0)
-print("compiled here:", len({{"cos", "build_positions"}} & set(names)))
+    assert abs(cos(0.0) - 1.0) + abs(sin(0.0)) == 0.0
+print("compiled here:", "cos" in names)
 """
 KILL = "import os, signal; os.kill(os.getpid(), signal.SIGKILL)"
 KILLED, STORED = "killed, probably because the memory was exhausted", "cannot be stored in"
@@ -48,7 +45,7 @@ def run_program(cache: Path, child: str = "", before: tuple[str, ...] = ()) -> l
 @pytest.mark.exhaustive
 @pytest.mark.long
 def test_function_is_compiled_in_a_child_and_loaded(tmp_path):
-    assert run_program(tmp_path) == ["compiled here: 0"]
+    assert run_program(tmp_path) == ["compiled here: False"]
 
 
 @pytest.mark.parametrize(
@@ -63,7 +60,7 @@ def test_function_is_compiled_in_a_child_and_loaded(tmp_path):
 @pytest.mark.exhaustive
 def test_failed_child_is_explained_and_replaced(child, reason, count, tmp_path):
     *messages, last = run_program(tmp_path, child)
-    assert last == "compiled here: 2"
+    assert last == "compiled here: True"
     assert len(messages) == count
     assert all(reason in message and "in the server" in message for message in messages)
 
@@ -75,7 +72,7 @@ def test_full_disk_costs_no_child_and_is_reported_once(tmp_path, free_bytes):
         os.truncate(disk / "filler", (disk / "filler").stat().st_size - free_bytes)
         message, last = run_program(disk, "raise SystemExit('no child')")
         assert str(disk) in message
-        assert last == "compiled here: 2"
+        assert last == "compiled here: True"
 
 
 @pytest.mark.exhaustive
@@ -85,4 +82,4 @@ def test_cache_that_cannot_be_written_is_reported_once(tmp_path):
     read_only = ("bwrap", "--dev-bind", "/", "/", "--ro-bind", str(tmp_path), str(tmp_path))
     message, last = run_program(tmp_path, before=read_only)
     assert STORED in message
-    assert last == "compiled here: 2"
+    assert last == "compiled here: True"

@@ -18,7 +18,7 @@ from svsa.numerics.separate_compilation import (
     compile_in_children,
     describe_end,
 )
-from svsa.simulation.loop.loop import advance_in_place
+from svsa.simulation.loop.loop import advance
 from svsa_server.compiled_loops import LOWEST_PRIORITY, is_compiled_for
 
 OTHER = next(name for name in list_mechanism_names() if name != SVSA)
@@ -42,11 +42,9 @@ def prepare_apart(
         actuator: The actuator, as for `prepare`.
     """
     code, names = 0, laws or tuple(filter(is_usable, list_law_names()))
-    is_stored = is_compiled_before(advance_in_place.write_results) and is_compiled_for(
-        actuator, names[0]
-    )
+    is_stored = is_compiled_before(advance) and is_compiled_for(actuator, names[0])
     is_stored = is_stored and all(_is_compiled(get_law(name).control) for name in names)
-    if not is_stored and can_store(advance_in_place):
+    if not is_stored and can_store(advance):
         # It writes to the console of this process, as `prepare` does.
         command = [*build_child(COMPILE_FIRST), "compile", *laws, "--actuator", actuator]
         code = subprocess.run(command, stdin=subprocess.DEVNULL, check=False).returncode  # noqa: S603
@@ -73,7 +71,7 @@ def compile_laws() -> Iterator[None]:
     """
     laws = [get_law(name).control for name in filter(is_usable, list_law_names())]
     is_stored = all(map(_is_compiled, laws)) and is_compiled_for(OTHER, PAPERS_LAW)
-    if is_stored or not can_store(advance_in_place):
+    if is_stored or not can_store(advance):
         yield
         return
     process = subprocess.Popen(  # noqa: S603  this program itself

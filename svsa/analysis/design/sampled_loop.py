@@ -95,10 +95,8 @@ def linearize_tick(configuration: Configuration, sigma: float) -> SampledLoop:
             blocks, call, inputs, lane.known, lane.estimate, lane.applied, measured, 0
         )
         F = compute_internal_torque(blocks.nominal, lane.known)
-        # The memory is only passed on from here, which a call from Python cannot do.
-        plant = lane._replace(memory=None)
-        reached, _ = move(blocks, inputs, plant, F, act(blocks, inputs, plant, torque, 0), 0)
-        return _pack(reached._replace(memory=lane.memory))
+        lane, _ = move(blocks, inputs, lane, F, act(blocks, inputs, lane, torque, 0), 0)
+        return _pack(lane)
 
     def hear(n: np.ndarray) -> np.ndarray:
         heard = Measurement(n[0], n[1], n[2], 0.0, 0.0, 0.0)

@@ -119,8 +119,8 @@ def build_arm_work(ticks: int) -> Callable[[], object]:
     """Build the work of the kernel of an arm with the same law: `ticks` ticks."""
     run = ArmRun(build_arm_experiment("rods", {}, {"law": LAW}))
     samples, masses = np.empty((2, ticks, len(CHANNELS))), np.empty(ticks)
-    inputs = run.arms[0], run.laws[0], run.laws[1], run.arm_inputs, run.states[0]
-    return lambda: advance_arm(*inputs, 0, samples[0], samples[1], masses)
+    inputs = run.arms[0], *run.laws, run.arm_inputs, run.states[0]
+    return lambda: advance_arm(*inputs, 0, *samples, masses)
 
 
 def build_actuator_works() -> dict[str, Callable[[], object]]:

@@ -101,22 +101,15 @@ def compute_error(states: np.ndarray, exact: np.ndarray) -> float:
     return float(np.abs(states - exact)[:, ANGLES].max())
 
 
+@compiled
 def compute_held_rate(
     time: float, x: np.ndarray, actuator: Actuator, force: np.ndarray
 ) -> np.ndarray:
     """Compute ẋ, shape (6,), under constant torques on link, motor 1 and motor 2, N·m, (3,)."""
-    rate = np.empty(6)
-    write_held_rate(rate, x, actuator, force)
-    return rate
-
-
-@compiled
-def write_held_rate(rate: np.ndarray, x: np.ndarray, actuator: Actuator, force: np.ndarray) -> None:
-    """Write the result of `compute_held_rate` into `rate`."""
     state = State(x[0], x[1], x[2], x[3], x[4], x[5])
     torque, load = Torque(force[1], force[2]), ExternalLoad(force[0], 0.0, 0.0, 0.0, 0.0)
-    r = compute_rate(actuator, state, torque, load)
-    rate[:] = np.array((r.q, r.dq, r.theta1, r.dtheta1, r.theta2, r.dtheta2))
+    rate = compute_rate(actuator, state, torque, load)
+    return np.array((rate.q, rate.dq, rate.theta1, rate.dtheta1, rate.theta2, rate.dtheta2))
 
 
 def solve_exactly(problem: Problem) -> np.ndarray:

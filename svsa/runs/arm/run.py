@@ -15,7 +15,7 @@ from svsa.runs.configuration import Configuration
 from svsa.runs.run import Reached, Run
 from svsa.simulation.arm.contact import check_wall
 from svsa.simulation.arm.lane import ArmBlocks, ArmInputs, ArmState
-from svsa.simulation.arm.loop import adapt_blocks, advance_arm, plan
+from svsa.simulation.arm.loop import adapt_blocks, advance_arm, plan, shift_estimate
 from svsa.simulation.arm.tip_loads import build_tip_table
 from svsa.simulation.loop.lane import Inputs
 from svsa.simulation.loop.slices import cut
@@ -58,10 +58,8 @@ class ArmRun(Run):
             for lane, planned in enumerate(known, start=first):
                 r = planned.reference
                 x = State(r.q, r.dq, r.q, r.dq, 0.0, 0.0)
-                begun = self.lanes[lane]
-                w = begun.estimate
-                estimate = w._replace(w2=w.w2 + planned.w)
-                self.lanes[lane] = begun._replace(x=x, known=x, estimate=estimate)
+                begun = self.lanes[lane]._replace(x=x, known=x)
+                self.lanes[lane] = shift_estimate(begun, planned.w)
             self._coupled.append(Coupled(known[0], known[1], Payload()))
 
     @property
@@ -88,7 +86,7 @@ class ArmRun(Run):
         kind = "arm", *(law.function for law in laws), blocks.joint1.steps
         for begin, stop in cut(kind, rows.shape[1]):
             state, count, *codes = advance_arm(
-                blocks, laws[0], laws[1], self.arm_inputs, state, self.tick + done,
+                blocks, *laws, self.arm_inputs, state, self.tick + done,
                 rows[0, begin:stop], rows[1, begin:stop], masses[begin:stop],
             )  # fmt: skip
             done += count

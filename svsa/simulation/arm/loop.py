@@ -209,43 +209,6 @@ def copy_law(law: BoundLaw, nominal: np.ndarray) -> BoundLaw:
 
 
 @compiled
-def advance_arm_in_place(
-    blocks: ArmBlocks,
-    law1: BoundLaw,
-    law2: BoundLaw,
-    inputs: ArmInputs,
-    arm: ArmState,
-    first: int,
-    samples1: np.ndarray,
-    samples2: np.ndarray,
-    masses: np.ndarray,
-) -> tuple[ArmState, int, int, int]:
-    """Run many ticks without the GIL, as `advance_arm`; the laws' memories in `arm` are written.
-
-    Returns (arm without memories, ticks done, code of joint 1, code of joint 2).
-    """
-    rows1, rows2 = borrow(samples1), borrow(samples2)
-    nominal1, nominal2 = law1.nominal.copy(), law2.nominal.copy()
-    laws = copy_law(law1, borrow(nominal1)), copy_law(law2, borrow(nominal2))
-    given = ArmInputs(
-        borrow_inputs(inputs.joint1), borrow_inputs(inputs.joint2), borrow(inputs.tip)
-    )
-    lane1 = remember(arm.joint1, borrow(arm.joint1.memory))
-    lane2 = remember(arm.joint2, borrow(arm.joint2.memory))
-    F1 = compute_internal_torque(blocks.joint1.nominal, lane1.known)
-    F2 = compute_internal_torque(blocks.joint2.nominal, lane2.known)
-    now = ArmState(lane1, lane2, arm.known1, arm.known2, arm.payload)
-    done, code1, code2 = 0, INSIDE, INSIDE
-    while done < rows1.shape[0] and code1 == INSIDE and code2 == INSIDE:
-        masses[done] = now.payload.mass
-        now, F1, F2, code1, code2 = run_arm_tick(
-            blocks, laws, given, now, F1, F2, first + done, rows1[done], rows2[done]
-        )
-        done += code1 == INSIDE and code2 == INSIDE
-    reached1, reached2 = remember(now.joint1, None), remember(now.joint2, None)
-    return ArmState(reached1, reached2, now.known1, now.known2, now.payload), done, code1, code2
-
-
 def advance_arm(
     blocks: ArmBlocks,
     law1: BoundLaw,
@@ -257,19 +220,30 @@ def advance_arm(
     samples2: np.ndarray,
     masses: np.ndarray,
 ) -> tuple[ArmState, int, int, int]:
-    """Run many ticks in one compiled call. samples1, samples2: (ticks, channels) of a joint,
-    written.
+    """Run many ticks without the GIL. samples1, samples2: (ticks, channels) of a joint, written.
 
     masses: (ticks,), m̂ at the beginning of each tick, kg, written. arm: at the tick `first`, which
     stays as it is. Returns (arm, ticks done, code of joint 1, code of joint 2), as
     `svsa.simulation.loop.loop.advance`.
     """
     memory1, memory2 = arm.joint1.memory.copy(), arm.joint2.memory.copy()
-    begun = arm._replace(
-        joint1=arm.joint1._replace(memory=memory1), joint2=arm.joint2._replace(memory=memory2)
+    rows1, rows2 = borrow(samples1), borrow(samples2)
+    nominal1, nominal2 = law1.nominal.copy(), law2.nominal.copy()
+    laws = copy_law(law1, borrow(nominal1)), copy_law(law2, borrow(nominal2))
+    given = ArmInputs(
+        borrow_inputs(inputs.joint1), borrow_inputs(inputs.joint2), borrow(inputs.tip)
     )
-    reached, *counts = advance_arm_in_place(
-        blocks, law1, law2, inputs, begun, first, samples1, samples2, masses
-    )
-    lane1 = reached.joint1._replace(memory=memory1)
-    return reached._replace(joint1=lane1, joint2=reached.joint2._replace(memory=memory2)), *counts
+    lane1 = remember(arm.joint1, borrow(memory1))
+    lane2 = remember(arm.joint2, borrow(memory2))
+    F1 = compute_internal_torque(blocks.joint1.nominal, lane1.known)
+    F2 = compute_internal_torque(blocks.joint2.nominal, lane2.known)
+    now = ArmState(lane1, lane2, arm.known1, arm.known2, arm.payload)
+    done, code1, code2 = 0, INSIDE, INSIDE
+    while done < rows1.shape[0] and code1 == INSIDE and code2 == INSIDE:
+        masses[done] = now.payload.mass
+        now, F1, F2, code1, code2 = run_arm_tick(
+            blocks, laws, given, now, F1, F2, first + done, rows1[done], rows2[done]
+        )
+        done += code1 == INSIDE and code2 == INSIDE
+    kept1, kept2 = remember(now.joint1, memory1), remember(now.joint2, memory2)
+    return ArmState(kept1, kept2, now.known1, now.known2, now.payload), done, code1, code2

@@ -1,6 +1,6 @@
 """A lane of the loop: its blocks, its inputs, and its state."""
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -128,8 +128,8 @@ def borrow_law(law: BoundLaw) -> BoundLaw:
 
 
 @compiled
-def remember(lane: LaneState, memory: Any) -> LaneState:
-    """Return the lane with another memory of its law; None for Python, which has the array."""
+def remember(lane: LaneState, memory: np.ndarray) -> LaneState:
+    """Return the lane with another memory of its law."""
     return LaneState(
         lane.x, lane.known, lane.estimate, lane.actual, lane.applied, lane.limited, memory
     )

@@ -288,30 +288,10 @@ def follow(
 
 
 @compiled
-def advance_in_place(
-    blocks: Blocks, law: BoundLaw, inputs: Inputs, lane: LaneState, first: int, samples: np.ndarray
-) -> tuple[LaneState, int, int]:
-    """Run many ticks without the GIL, as `advance`; the law's memory of `lane` is written.
-
-    Returns:
-        (lane without memory, ticks done, code).
-    """
-    # Borrowed arrays are not reference-counted; counting would take most of the time of a tick.
-    rows, law, inputs = borrow(samples), borrow_law(law), borrow_inputs(inputs)
-    lane = remember(lane, borrow(lane.memory))
-    F = compute_internal_torque(blocks.nominal, lane.known)
-    # Not the constant itself: numba would compile `run_tick` for it, and again for the integer.
-    done, code = 0, int(INSIDE)
-    while done < rows.shape[0] and code == INSIDE:
-        lane, F, code, _ = run_tick(blocks, law, inputs, lane, F, code, first + done, rows[done])
-        done += code == INSIDE
-    return remember(lane, None), done, code
-
-
 def advance(
     blocks: Blocks, law: BoundLaw, inputs: Inputs, lane: LaneState, first: int, samples: np.ndarray
 ) -> tuple[LaneState, int, int]:
-    """Run many ticks in one compiled call: one per row of `samples`.
+    """Run many ticks without the GIL: one per row of `samples`.
 
     Args:
         blocks: `Blocks`.
@@ -325,8 +305,14 @@ def advance(
         (lane, ticks done, code); a code other than `INSIDE` is the reason why the lane ended at the
         tick first + ticks done.
     """
-    # The caller's lane must not change: replays and branches start from it again.
-    memory = lane.memory.copy()
-    begun = lane._replace(memory=memory)
-    reached, done, code = advance_in_place(blocks, law, inputs, begun, first, samples)
-    return reached._replace(memory=memory), done, code
+    # The caller's lane must not change: replays and branches start from it again. Borrowed arrays
+    # are not reference-counted; counting would take most of the time of a tick.
+    memory, rows = lane.memory.copy(), borrow(samples)
+    lane, law, inputs = remember(lane, borrow(memory)), borrow_law(law), borrow_inputs(inputs)
+    F = compute_internal_torque(blocks.nominal, lane.known)
+    # Not the constant itself: numba would compile `run_tick` for it, and again for the integer.
+    done, code = 0, int(INSIDE)
+    while done < rows.shape[0] and code == INSIDE:
+        lane, F, code, _ = run_tick(blocks, law, inputs, lane, F, code, first + done, rows[done])
+        done += code == INSIDE
+    return remember(lane, memory), done, code

@@ -70,6 +70,19 @@ class Recorder:
     def __getattr__(self, name: str) -> Any:
         return getattr(self._function, name)
 
+    def list_results(self) -> list[str]:
+        """The types that the function returns to Python, without the types that contain them."""
+        signatures: list[Any] = self._function.nopython_signatures
+        pending: list[Any] = [one.return_type for one in signatures]
+        found = set[str]()
+        while pending:
+            kind = pending.pop()
+            if hasattr(kind, "types"):  # a tuple
+                pending += kind.types
+            else:
+                found.add(type(kind).__name__)
+        return sorted(found)
+
     def call_again(self) -> None:
         """Call the function with the arguments of its last call."""
         assert self.given is not None

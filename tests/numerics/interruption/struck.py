@@ -1,7 +1,8 @@
 """A process that calls every compiled function while signals arrive whose handlers raise.
 
 Usage: python -m tests.numerics.interruption.struck SECONDS. For each function it prints how many
-signals interrupted its calls within so many seconds (JSON).
+signals interrupted its calls within so many seconds, and the types that the function returns
+(JSON).
 """
 
 import json
@@ -71,7 +72,8 @@ def main() -> None:
                 if recorder.given is not None:
                     sys.stderr.write(f"{name}\n")
                     struck = striker.count(recorder.call_again, seconds)
-                sys.stdout.write(json.dumps({"name": name, "interruptions": struck}) + "\n")
+                found = {"name": name, "interruptions": struck, "returns": recorder.list_results()}
+                sys.stdout.write(json.dumps(found) + "\n")
         finally:
             signal.setitimer(signal.ITIMER_REAL, 0.0)
             sender.kill()

@@ -53,7 +53,7 @@ def calculate_functions(x, y):
 
 
 @compiled
-def run_vectors(function, rows, out) -> None:
+def run_vectors(function, rows, out):
     a, b = function(load(rows, 0), load(rows, 1))
     store(out, 0, a)
     store(out, 1, b)

@@ -15,7 +15,6 @@ from svsa.control.laws.feedback_linearization import build_gains, compute_feedba
 from svsa.control.laws.ndobc import compute_ndobc
 from svsa.control.limits import limit_torque
 from svsa.control.observers.disturbance import update_disturbance_estimate
-from svsa.numerics.compilation import compiled
 from svsa.runs.blocks import bind_law, build_blocks
 from svsa.runs.run import Run
 from svsa.simulation.loop.lane import Action, Inputs, LaneState, build_lane_state
@@ -75,11 +74,6 @@ def initial(configuration):
     return build_lane_state(get_law(configuration.law).start_memory())
 
 
-@compiled
-def publish_alone(*given) -> None:
-    publish(True, *given)
-
-
 def compose_tick(blocks, law, inputs, lane, tick, sample):
     """A tick of the loop, composed in Python from the same compiled functions."""
     assert check_domain(blocks.domain, blocks.plant, lane.x) == INSIDE
@@ -98,7 +92,7 @@ def compose_tick(blocks, law, inputs, lane, tick, sample):
     rate = compute_plant_rate(blocks.plant, effects, lane.x, actual, load)
     action = Action(limited, delayed, actual, load, rate)
     F = compute_internal_torque(blocks.nominal, lane.known)
-    publish_alone(blocks, reference, lane, F, call, action, tick, sample)
+    publish(True, blocks, reference, lane, F, call, action, tick, sample)
     x = integrate_period(
         blocks.plant,
         effects,
