@@ -3,18 +3,14 @@
 import pytest
 
 from svsa.hardware.emulator.launch import start_emulator
-from tests.exhaustive import exhaust
 
 from .caused_faults import CASES, check_stopped
 from .watched_bench import make_ready
 
 
+@pytest.mark.exhaustive
 @pytest.mark.parametrize(
-    "name",
-    exhaust(
-        ["no frames of motor1", "error frames", "a stranger resets the drives"],
-        ["no frames of motor1"],
-    ),
+    "name", ["no frames of motor1", "error frames", "a stranger resets the drives"]
 )
 def test_faults_over_sockets_have_the_same_outcome(name: str) -> None:
     """As in `test_bench_faults` in one process."""

@@ -157,6 +157,7 @@ def test_series_and_chirp_are_followed_through_the_wire() -> None:
     assert np.abs(recorded[0][1200:, CHANNEL_INDEX["position_error_rad"]]).max() < np.radians(0.5)
 
 
+@pytest.mark.exhaustive
 def test_law_with_its_own_estimate_starts_from_the_present_one() -> None:
     """ESP after NDOBC under 2 N·m: from ŵ = 0 the torque jumped by 16 N·m, the link moved by 1.7°.
 

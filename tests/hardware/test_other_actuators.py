@@ -34,7 +34,6 @@ from svsa.hardware.safety.machine import BenchStatus
 from svsa.runs.experiment import build_actuator_experiment, build_default_load
 from svsa.runs.paper import get_figure
 from svsa.runs.run import Run
-from tests.exhaustive import exhaust
 from tests.hardware.emulator.in_process_emulator import start_in_process
 
 OTHERS = [
@@ -81,7 +80,8 @@ def read_settled(samples: np.ndarray, name: str) -> np.ndarray:
     return samples[SETTLED, CHANNEL_INDEX[name]]
 
 
-@pytest.mark.parametrize("name", exhaust(OTHERS, ["qbmove"]))
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("name", OTHERS)
 def test_ndobc_holds_the_load_on_the_emulated_bench(name: str, tmp_path: Path) -> None:
     """1.5 s after the load ŵ is the load, and the error is less than half of that of FL."""
     compensated, plain = (run(tmp_path, name, law) for law in ("ndobc", "fl"))

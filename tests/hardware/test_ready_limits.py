@@ -1,5 +1,7 @@
 """The limits without torque, on an emulator in a separate process."""
 
+import pytest
+
 from svsa.hardware.emulator.experiment import LockstepBench
 from svsa.hardware.emulator.launch import start_emulator
 from svsa.hardware.safety.machine import BenchStatus
@@ -7,6 +9,7 @@ from svsa.runs.paper import get_figure
 from svsa.simulation.plant.loads.constant import ConstantLoad
 
 
+@pytest.mark.exhaustive
 def test_link_turned_by_a_load_after_a_stop_ends_in_a_fault():
     with start_emulator(lockstep=True) as emulator:
         bench = LockstepBench(emulator, get_figure("4a").build_configuration(load=False), 1000)

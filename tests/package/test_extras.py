@@ -88,6 +88,7 @@ def test_library_simulates_without_any_extra():
     assert run_without(ALL, program) == "10 None\n"
 
 
+@pytest.mark.exhaustive
 def test_missing_extra_is_reported_in_one_line_with_its_installation():
     said = json.loads(run_without(ALL, f"{SAY}print(json.dumps([say(c) for c in {[*CALLS]!r}]))"))
     for (call, extra), line in zip(CALLS.items(), said, strict=True):

@@ -32,6 +32,7 @@ def search(*arguments, code=0):
     return run("search", "pulse.toml", "--runs", "2000", *arguments, code=code)
 
 
+@pytest.mark.exhaustive
 def test_result_is_saved_and_read_from_its_file(tmp_path):
     (tmp_path / "pulse.toml").write_text(GOOD)
     reported = json.loads(search("--json", "--picture", "found.png").stdout)

@@ -183,6 +183,7 @@ def test_outcome_is_an_option_of_sensitivity_studies_only(data):
             run("show", "one", "--outcome", outcome)
 
 
+@pytest.mark.exhaustive
 @pytest.mark.long
 def test_pictures_show_the_available_results(data, tmp_path):
     run("show", "one", "--pictures", str(tmp_path))

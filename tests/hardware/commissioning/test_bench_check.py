@@ -79,6 +79,7 @@ def test_signs_are_not_confirmed_without_a_watching_user(moved):
     assert steps["motor2: sign"].result is Result.WARN
 
 
+@pytest.mark.exhaustive
 def test_observed_wrong_direction_revokes_the_confirmation(path, bus):
     steps = check(path, bus, move=True, watch=lambda question: "motor2" not in question)
     assert "sign = -1 in [motor2]" in steps["motor2: sign"].advice
@@ -165,6 +166,7 @@ def test_dead_motor_encoder_does_not_cause_a_runaway(path, bus):
     assert abs(bus.emulator.mechanics.read(bus.emulator.now_us).theta1) < 0.5
 
 
+@pytest.mark.exhaustive
 def test_motor_moved_by_a_load_is_not_taken_for_a_sign(path, bus):
     bus.emulator.schedule(
         round(MOVING_S * 1e6),
@@ -186,6 +188,7 @@ def test_missing_drive_next_to_a_present_one(path, bus):
     assert "factory address" in check(path, bus)["motor1: drive group 0 number 1"].advice
 
 
+@pytest.mark.exhaustive
 def test_wrong_deflection_sign_of_the_bench_is_found(tmp_path):
     emulator = Emulator(EmulatorParameters(deflection=EmulatedDeflection(sign=-1, phase_s=0.0008)))
     steps = check(copy_bench(tmp_path), EmulatorBus(emulator), move=True)

@@ -255,6 +255,7 @@ class DriveContract:
                 is not None
             )
 
+    @pytest.mark.exhaustive
     def test_two_drives_with_one_address_are_rejected(self, path: Path) -> None:
         sections = tomllib.loads(path.read_text(encoding="utf-8"))
         sections["motor2"] |= self.addresses[0]

@@ -71,6 +71,7 @@ def assert_same_bits(a: np.ndarray, b: np.ndarray) -> None:
     )
 
 
+@pytest.mark.exhaustive
 @pytest.mark.parametrize("function", [calculate, decide])
 @settings(max_examples=200)
 @given(x=ROW, y=ROW)
@@ -80,6 +81,7 @@ def test_element_has_the_bits_of_the_float(function, x, y) -> None:
     assert_same_bits(out, np.array([function(*pair) for pair in rows.T]).T)
 
 
+@pytest.mark.exhaustive
 @settings(max_examples=200)
 @given(
     x=st.lists(st.floats(1e-250, 1e9) | st.floats(-1e9, -1e-250), min_size=WIDTH, max_size=WIDTH),

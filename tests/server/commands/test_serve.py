@@ -85,6 +85,7 @@ def test_files_of_a_class_are_private(tmp_path: Path) -> None:
         assert [one for one in written if one.stat().st_mode & 0o077] == []
 
 
+@pytest.mark.exhaustive
 @pytest.mark.skipif(shutil.which("bwrap") is None, reason="bwrap is not installed")
 def test_missing_shared_memory_is_reported_at_the_start() -> None:
     """As in a container whose /dev/shm is read-only."""

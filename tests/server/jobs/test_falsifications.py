@@ -36,6 +36,7 @@ def lab():
         yield lab.client
 
 
+@pytest.mark.exhaustive
 def test_search_is_followed_to_its_result_and_shown_in_a_session(lab, tmp_path):
     asked = KIND | {"text": PULL, "law": "fl", "runs": 96, "seed": 3}
     begun = lab.post(JOBS, json=asked)

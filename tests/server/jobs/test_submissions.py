@@ -76,6 +76,7 @@ def test_invalid_submission_is_rejected(lab, wanted, reported):
     assert reported in refused.text
 
 
+@pytest.mark.exhaustive
 @pytest.mark.usefixtures("short_season")
 def test_worker_enters_the_submitted_and_installed_laws_and_repeated_text_has_no_second_job(
     lab, data, tmp_path

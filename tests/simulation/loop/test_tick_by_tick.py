@@ -121,6 +121,7 @@ def test_one_call_equals_a_run(parts, initial, result):
     np.testing.assert_array_equal(samples, result)
 
 
+@pytest.mark.exhaustive
 def test_step_by_step_calls_from_python_give_the_same_bits(parts, initial, result):
     """Compiled alone or inlined into the loop, an equation rounds identically."""
     samples, lane = np.empty_like(result), initial

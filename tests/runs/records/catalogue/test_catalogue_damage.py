@@ -105,6 +105,7 @@ def test_damaged_catalogue_is_rebuilt_at_the_start(
     assert not any("\n" in message for message in caplog.messages)
 
 
+@pytest.mark.exhaustive
 @pytest.mark.parametrize("ending", exhaust(["-wal", "-shm", "-journal"], ["-wal"]))
 def test_damaged_log_does_not_prevent_the_start(data: Path, ending: str) -> None:
     shutil.copy(data / NAME, data / "intact.sqlite")
