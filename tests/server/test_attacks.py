@@ -151,12 +151,13 @@ def test_holder_that_disconnects_loses_control(attacked: Lab) -> None:
 
 
 @pytest.mark.exhaustive
+@pytest.mark.wall_clock
 def test_slowly_reading_client_is_kept_and_dead_one_is_dropped(attacked: Lab) -> None:
-    """At 4 kB/s each pong takes half of the time in which the server waits for one."""
+    """At 8 kB/s each pong takes a quarter of the time in which the server waits for one."""
     begin_lanes(attacked, 2)
     attacked.client.post(attacked.session + "/start").raise_for_status()
     headers = {"Authorization": attacked.client.headers["Authorization"]}
-    with open_slow_link(attacked.url, rate_bps=4000.0) as link:
+    with open_slow_link(attacked.url, rate_bps=8000.0) as link:
         address = link.url.replace("http", "ws") + attacked.session + "/stream" + PAGE_STREAM
         with connect(address, proxy=None, additional_headers=headers, ping_interval=None) as stream:
             begin = time.monotonic()
