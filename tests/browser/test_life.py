@@ -1,5 +1,6 @@
 """A page during a second page, a reload, and a restart of the server."""
 
+import itertools
 import re
 from pathlib import Path
 
@@ -26,6 +27,9 @@ FOOT_IS_AT = """height => {
     return Math.round(bottom) === height;
 }"""
 BEGINS_BEFORE = "time => window.svsa.series('position_error_rad').time[0] < time"
+WRITE_NUMBERS = """number => {
+    for (const shown of document.querySelectorAll(".readout dd")) shown.textContent = `${number} deg`;
+}"""
 IS_WIDE = "width => document.documentElement.scrollWidth === width"
 
 
@@ -132,8 +136,10 @@ def test_ended_private_session_is_reported_with_a_link_back(page: Page, lab: Lab
     banner = page.get_by_role("complementary", name="Private session")
     expect(banner).to_contain_text("has ended")
     expect(bar.get_by_text("Running")).to_have_count(0)
-    page.set_viewport_size({"width": 390, "height": 844})
-    page.wait_for_function(IS_WIDE, arg=390)
+    for width, number in itertools.product((390, 320), ("0.0017", "\N{MINUS SIGN}100.1234")):
+        page.set_viewport_size({"width": width, "height": 844})
+        page.evaluate(WRITE_NUMBERS, number)
+        page.wait_for_function(IS_WIDE, arg=width)
     page.set_viewport_size({"width": 1280, "height": 720})
     page.reload()
     expect(banner, "a link to it says so too").to_contain_text("has ended")
