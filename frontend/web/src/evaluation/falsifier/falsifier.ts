@@ -73,7 +73,8 @@ interface Finding {
   neighbors?: number;
   neighbors_failed?: number;
 }
-export const findingOf = (one: Scenario): Finding | null => (one.found as Finding) ?? null;
+export const findingOf = (searched: Scenario): Finding | null =>
+  (searched.found as Finding) ?? null;
 
 /** A law and its comparison: NDOBC, or FL for NDOBC itself. */
 export const baselinesOf = (law: Law): readonly [Law, Law] => [
@@ -127,8 +128,8 @@ export async function follow(id: string): Promise<void> {
   else if (pollEnd === "refused") search.value = null;
 }
 
-export const keyOf = (one: Scenario, names: readonly Law[]): string =>
-  JSON.stringify([one.loads, one.settings, one.base, one.duration_s, names]);
+export const keyOf = (shown: Scenario, names: readonly Law[]): string =>
+  JSON.stringify([shown.loads, shown.settings, shown.base, shown.duration_s, names]);
 
 let isTracing = false;
 
@@ -138,15 +139,15 @@ export async function traceSelection(): Promise<void> {
   isTracing = true;
   try {
     for (;;) {
-      const [one, names, here] = [scenario.peek(), laws.peek(), selectionKey.peek()];
-      if (one === null) return;
-      const key = keyOf(one, names);
+      const [shown, names, here] = [scenario.peek(), laws.peek(), selectionKey.peek()];
+      if (shown === null) return;
+      const key = keyOf(shown, names);
       const last = lastTrace.peek();
       if (last?.key === key && last.at === here) return;
-      const found = await attempt(() => traceLaws(one, names));
+      const traces = await attempt(() => traceLaws(shown, names));
       if (here !== selectionKey.peek()) continue;
-      if (found === null) return;
-      lastTrace.value = { at: here, key, trace: found };
+      if (traces === null) return;
+      lastTrace.value = { at: here, key, trace: traces };
     }
   } finally {
     isTracing = false;
@@ -169,10 +170,10 @@ export async function cancel(): Promise<void> {
 
 /** Save the selected scenario under a name, and select the saved one. */
 export async function saveSelection(name: string): Promise<void> {
-  const one = scenario.peek();
-  if (one === null) return;
+  const shown = scenario.peek();
+  if (shown === null) return;
   await perform("keep", async () => {
-    const created = await saveScenario(name, one);
+    const created = await saveScenario(name, shown);
     await openLists();
     goTo({ kind: "falsifier", search: "", scenario: created.name, laws: selection.peek().laws });
   });
@@ -180,11 +181,11 @@ export async function saveSelection(name: string): Promise<void> {
 
 /** Open a private session of a law under it, compared with the searched law. */
 export async function openInLab(law: Law): Promise<void> {
-  const one = scenario.peek();
-  if (one === null) return;
-  const searchedLaw = findingOf(one)?.law ?? law;
+  const shown = scenario.peek();
+  if (shown === null) return;
+  const searchedLaw = findingOf(shown)?.law ?? law;
   const pair = law === searchedLaw ? baselinesOf(law) : [law, searchedLaw];
-  const created = await perform(`see ${law}`, () => openScenarioSession(one, pair));
+  const created = await perform(`see ${law}`, () => openScenarioSession(shown, pair));
   if (created !== null) {
     location.assign(`${location.pathname}?session=${encodeURIComponent(created.session)}`);
   }

@@ -28,9 +28,9 @@ export const { problem, isBusy } = work;
 
 export async function openRanking(): Promise<void> {
   if (results.peek() !== null) return;
-  await read(readRanking, (found) => {
-    results.value = found;
-    chosen.value = found.rows[0]?.key ?? "";
+  await read(readRanking, (answer) => {
+    results.value = answer;
+    chosen.value = answer.rows[0]?.key ?? "";
   });
 }
 
@@ -46,7 +46,7 @@ const DOI = /doi:(10\.\d{4,}\/\S+)$/;
 
 /** The source of a law, and its DOI; "" without one. */
 export function splitSource(source: string): { said: string; doi: string } {
-  const found = DOI.exec(source);
-  if (found === null) return { said: source, doi: "" };
-  return { said: source.slice(0, found.index), doi: found[1] ?? "" };
+  const match = DOI.exec(source);
+  if (match === null) return { said: source, doi: "" };
+  return { said: source.slice(0, match.index), doi: match[1] ?? "" };
 }

@@ -65,8 +65,8 @@ const { attempt, perform, poll, read, showError, ...work } = createWork();
 export const { problem, isBusy, leave, stopFollowing } = work;
 
 export const openList = () =>
-  read(listStudies, (found) => {
-    list.value = found;
+  read(listStudies, (studies) => {
+    list.value = studies;
   });
 
 const columnsToRead = (names: Readonly<Record<string, string>>): string[] => [
@@ -80,13 +80,13 @@ async function loadRows(name: string): Promise<void> {
 
 export const fetchRows = (name: string) => attempt(() => loadRows(name));
 
-async function loadSummary(found: Study): Promise<void> {
-  const answer = await nullIfRejected(readSummary(found.name), showError);
-  if (chosenName.peek() !== found.name) return;
+async function loadSummary(shown: Study): Promise<void> {
+  const answer = await nullIfRejected(readSummary(shown.name), showError);
+  if (chosenName.peek() !== shown.name) return;
   summary.value = answer;
-  if (found.study.sampling !== "sensitivity") return;
-  const shares = await nullIfRejected(readSensitivity(found.name, "succeeded"), () => {});
-  if (chosenName.peek() === found.name) indices.value = shares ?? [];
+  if (shown.study.sampling !== "sensitivity") return;
+  const shares = await nullIfRejected(readSensitivity(shown.name, "succeeded"), () => {});
+  if (chosenName.peek() === shown.name) indices.value = shares ?? [];
 }
 
 /** Select a study, and follow it while it runs. */
@@ -101,17 +101,17 @@ export async function follow(name: string): Promise<void> {
   let shownCount = 0;
   await poll(
     () => readStudy(name),
-    async (found, isLeft) => {
-      study.value = found;
-      const isEnded = !isJobRunning(found.job);
-      if (found.done > 0 && (isEnded || found.done > shownCount * GROWTH)) {
+    async (current, isLeft) => {
+      study.value = current;
+      const isEnded = !isJobRunning(current.job);
+      if (current.done > 0 && (isEnded || current.done > shownCount * GROWTH)) {
         await nullIfRejected(loadRows(name), showError);
         if (isLeft()) return false;
-        shownCount = found.done;
+        shownCount = current.done;
       }
       if (!isEnded) return false;
       void openList();
-      if (found.done > 0) await loadSummary(found);
+      if (current.done > 0) await loadSummary(current);
       return true;
     },
   );
@@ -147,9 +147,9 @@ export async function selectRow(row: number): Promise<void> {
   const name = chosenName.peek();
   const known = selectedRows.peek();
   if (known.at(-1)?.row === row) return;
-  const found = await attempt(() => readRow(name, row));
-  if (found !== null) {
-    selectedRows.value = [...known.filter((one) => one.row !== row), found].slice(-2);
+  const selected = await attempt(() => readRow(name, row));
+  if (selected !== null) {
+    selectedRows.value = [...known.filter((other) => other.row !== row), selected].slice(-2);
   }
 }
 
