@@ -22,7 +22,8 @@ from numba.core import types
 from svsa.actuators.energy_source import reject_energy, write_source
 from svsa.actuators.mechanism import MAX_ELASTIC, Mechanism
 from svsa.actuators.spring import SpringDerivatives, SpringState, SpringTorques, StiffnessMargin
-from svsa.numerics.code_cache import choose_root, make_folder, read_sealed, write_sealed
+from svsa.numerics.cache_folder import choose_root, make_folder
+from svsa.numerics.code_cache import read_sealed, write_sealed
 from svsa.numerics.exported import find_address
 
 _GIVEN = [types.float64] * (2 + MAX_ELASTIC)

@@ -1,8 +1,4 @@
-"""The cache of compiled code: its location and its cleanup.
-
-Each file with compiled functions has a folder, with one subfolder for each version of its text and
-imports. Other processes and other versions of the lab use the same folders. The age of a folder
-decides whether it may still be in use; a process that misses removed code compiles it again.
+"""The files of compiled code, shared by processes and by versions of the lab.
 
 Each file ends with a digest. Damaged files are removed and compiled again: numba would raise errors
 while it reads them, or run code that was cut.
@@ -12,17 +8,10 @@ import contextlib
 import hashlib
 import io
 import itertools
-import logging
 import os
-import re
 import shutil
-import stat
-import tempfile
 import threading
-import time
 from collections.abc import Callable, Iterator
-from functools import cache
-from multiprocessing import parent_process
 from pathlib import Path
 from typing import Any, ClassVar, TypeVar
 
@@ -34,19 +23,9 @@ from numba.core.caching import (
 )
 
 from svsa.inputs.file_lock import take_lock
+from svsa.numerics.cache_folder import make_folder, report
 
-KEPT_TEXTS = 3
-UNUSED_S = 24 * 3600.0
-"""A text's folder that was not opened for this time is removed if `KEPT_TEXTS` newer ones exist."""
-ABANDONED_S = 30 * UNUSED_S
-"""A file's folder that was not opened for this time is removed: the file no longer exists."""
-_FINGERPRINT = "[0-9a-f]{16}"
-# Earlier versions had one folder for all code, named after the fingerprint alone.
-_OF_EARLIER_VERSION = re.compile(f"compiled-{_FINGERPRINT}")
-_OF_FILE = re.compile(r"\w+(\.\w+)*")
 _SEAL = b"\n# "
-_log = logging.getLogger("svsa")
-_is_reported = False
 T = TypeVar("T")
 
 
@@ -126,7 +105,7 @@ class SharedCache(FunctionCache):
                 if os.access(self.cache_path, os.W_OK):
                     super().save_overload(sig, data)
         except OSError as error:  # for example a full disk
-            _report(f"Compiled code cannot be stored in {self.cache_path}: {error.strerror}.")
+            report(f"Compiled code cannot be stored in {self.cache_path}: {error.strerror}.")
 
     def list_types(self) -> list[Any]:
         """List the types of arguments that there is code for."""
@@ -184,7 +163,7 @@ def read_sealed(path: Path) -> bytes | None:
 
 
 def _discard(path: Path, state: str) -> None:
-    _report(f"{path.name} in the folder of compiled code {path.parent} {state}: compiling.")
+    report(f"{path.name} in the folder of compiled code {path.parent} {state}: compiling.")
     with contextlib.suppress(OSError):
         _remove(path)
 
@@ -219,135 +198,3 @@ def _remove(path: Path) -> None:
         shutil.rmtree(path)
     else:
         path.unlink()
-
-
-@cache
-def _report(message: str) -> None:
-    """Log the first message of a process, not of its worker processes."""
-    global _is_reported
-    if not _is_reported and parent_process() is None:
-        _is_reported = True
-        _log.warning(message)
-
-
-def claim_message() -> bool:
-    """Return whether no message about the cache was logged yet, and log none from now on."""
-    global _is_reported
-    is_first, _is_reported = not _is_reported, True
-    return is_first
-
-
-def make_folder(folder: Path) -> None:
-    """Create a folder of the cache, in place of files and broken links with its names.
-
-    Args:
-        folder: A folder below the root.
-
-    Raises:
-        OSError: If it cannot be created.
-    """
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError:
-        root = choose_root()
-        below = [path for path in (*reversed(folder.parents), folder) if root in path.parents]
-        for path in below:
-            if os.path.lexists(path) and not path.is_dir():
-                _report(f"{path.name} in the folder of compiled code {root} is not a folder.")
-                path.unlink()
-        folder.mkdir(parents=True, exist_ok=True)
-
-
-def choose_root() -> Path | None:
-    """Return `SVSA_CACHE`, or the user's cache folder.
-
-    Returns:
-        The folder; one of temporary files if that cannot be read or created, and None if neither
-        can.
-    """
-    try:
-        if chosen := os.environ.get("SVSA_CACHE"):
-            root = Path(chosen).expanduser()
-        else:
-            root = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "svsa"
-        root.mkdir(parents=True, exist_ok=True)
-        if os.access(root, os.R_OK | os.X_OK):
-            return root.absolute()
-        reason = f"{root} cannot be read"
-    except OSError as error:
-        reason = f"{error.filename} cannot be used ({error.strerror})"
-    except RuntimeError:
-        reason = "this user has no home folder"
-    try:
-        root = _open_temporary()
-    except OSError:
-        _report(f"Compiled code is not stored: {reason}. Set SVSA_CACHE to a folder.")
-        return None
-    _report(f"Compiled code is stored in {root}: {reason}. Set SVSA_CACHE to a folder.")
-    return root
-
-
-def _open_temporary() -> Path:
-    user = os.getuid() if hasattr(os, "getuid") else 0
-    root = Path(tempfile.gettempdir()) / f"svsa-{user}"
-    root.mkdir(mode=0o700, exist_ok=True)
-    state = root.lstat()
-    # Others must not be able to put code there.
-    if not stat.S_ISDIR(state.st_mode) or state.st_uid != user or state.st_mode & 0o077:
-        raise PermissionError(f"{root} belongs to another account")
-    return root
-
-
-def open_folder(module: str, fingerprint: str) -> Path | None:
-    """Return the folder of a module's code with this fingerprint; None if it cannot be created.
-
-    An existing folder that cannot be written is used for reading.
-    """
-    root = choose_root()
-    if root is None:
-        return None
-    folder = root / module / fingerprint
-    try:
-        make_folder(folder)
-        # Entries are removed by the time of their last use, not of their creation.
-        os.utime(folder)
-    except OSError as error:
-        if folder.is_dir() and os.access(folder, os.R_OK | os.X_OK):
-            return folder
-        _report(f"Compiled code cannot be stored in {folder}: {error.strerror}.")
-        return None
-    with contextlib.suppress(OSError):  # another process may remove the same folder
-        _remove_texts(folder.parent)
-        _remove_abandoned(root)
-    return folder
-
-
-def _remove_texts(folder: Path) -> None:
-    texts = sorted(folder.iterdir(), key=os.path.getmtime, reverse=True)
-    for text in texts[KEPT_TEXTS:]:
-        if _is_older(text, UNUSED_S):
-            shutil.rmtree(text, ignore_errors=True)
-
-
-@cache
-def _remove_abandoned(root: Path) -> None:
-    """Remove abandoned folders, once per process; keep foreign ones."""
-    for folder in list(root.iterdir()):
-        texts = _list_texts(folder)
-        if texts is not None and all(_is_older(text, ABANDONED_S) for text in texts):
-            shutil.rmtree(folder, ignore_errors=True)
-
-
-def _list_texts(folder: Path) -> list[Path] | None:
-    """List the folders whose times show the last use of one; None if it is foreign."""
-    if _OF_EARLIER_VERSION.fullmatch(folder.name) and folder.is_dir():
-        return [folder]
-    if not _OF_FILE.fullmatch(folder.name) or not folder.is_dir():
-        return None
-    texts = list(folder.iterdir())
-    is_own = bool(texts) and all(re.fullmatch(_FINGERPRINT, text.name) for text in texts)
-    return texts if is_own else None
-
-
-def _is_older(folder: Path, age_s: float) -> bool:
-    return time.time() - folder.stat().st_mtime > age_s

@@ -31,7 +31,8 @@ import numba
 from numba.core import config, event
 from numba.np import linalg
 
-from svsa.numerics.code_cache import SharedCache, open_folder
+from svsa.numerics.cache_folder import open_folder
+from svsa.numerics.code_cache import SharedCache
 from svsa.numerics.fused import FusingCompiler
 from svsa.numerics.separate_compilation import prepare_code
 

@@ -23,7 +23,8 @@ from typing import Any
 from numba.core.errors import NumbaError
 from numba.core.serialize import dumps
 
-from svsa.numerics.code_cache import SharedCache, claim_message
+from svsa.numerics.cache_folder import claim_message
+from svsa.numerics.code_cache import SharedCache
 
 CHILD = (
     "import pickle, sys; sys.path[:] = pickle.load(sys.stdin.buffer);"

@@ -18,14 +18,8 @@ import numba
 import pytest
 from numba.core import config
 
-from svsa.numerics.code_cache import (
-    ABANDONED_S,
-    KEPT_TEXTS,
-    UNUSED_S,
-    SealedFiles,
-    SharedCache,
-    open_folder,
-)
+from svsa.numerics.cache_folder import ABANDONED_S, KEPT_TEXTS, UNUSED_S, open_folder
+from svsa.numerics.code_cache import SealedFiles, SharedCache
 
 OLD, NEW = f"{1:016x}", f"{2:016x}"
 

@@ -14,8 +14,9 @@ from numba.core import config
 
 from svsa.actuators import energy
 from svsa.actuators.installed import get_mechanism
-from svsa.numerics import code_cache
-from svsa.numerics.code_cache import SharedCache, choose_root, open_folder
+from svsa.numerics import cache_folder, code_cache
+from svsa.numerics.cache_folder import choose_root, open_folder
+from svsa.numerics.code_cache import SharedCache
 from tests.exhaustive import exhaust
 
 MODULE, FINGERPRINT = "svsa.numerics.trigonometry", f"{7:016x}"
@@ -45,8 +46,8 @@ def start(monkeypatch: pytest.MonkeyPatch) -> Callable[[], None]:
     """What a new process begins with: it has not reported anything."""
 
     def forget() -> None:
-        monkeypatch.setattr(code_cache, "_is_reported", False)
-        code_cache._report.cache_clear()
+        monkeypatch.setattr(cache_folder, "_is_reported", False)
+        cache_folder.report.cache_clear()
 
     forget()
     return forget
@@ -215,7 +216,7 @@ def test_user_without_name_or_home_stores_code_among_temporary_files(
     public.chmod(0o777)
     # Imported as root, who may be the only one to read the interpreter.
     code = (
-        "import os, pwd, svsa.numerics.code_cache as cache; os.environ.pop('HOME');"
+        "import os, pwd, svsa.numerics.cache_folder as cache; os.environ.pop('HOME');"
         f"os.environ.update({{'HOME': {home!r}}} if {home!r} else {{}});"
         "os.setuid(54321); print(cache.choose_root())"
     ).replace("{forbidden}", str(tmp_path / "forbidden"))
