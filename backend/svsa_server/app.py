@@ -37,7 +37,8 @@ from svsa_server.access.roles import INSTRUCTOR
 from svsa_server.config import Settings
 from svsa_server.errors import ErrorAnswers, install_error_handlers
 from svsa_server.jobs.heavy_work import HeavyWork
-from svsa_server.jobs.queue import Jobs, Share
+from svsa_server.jobs.queue import Jobs
+from svsa_server.jobs.turns import Share
 from svsa_server.leases.outcomes import OutcomeKeeper, Outcomes
 from svsa_server.leases.queue import ControlQueue
 from svsa_server.monitoring import DiskWatch, build_metrics_route

@@ -16,7 +16,7 @@ from svsa.runs.records.resimulation import check_simulated, read_origin
 from svsa.simulation.plant.loads.paper import PaperLoad
 from svsa_server.compiled_loops import compile_arm, compile_for
 from svsa_server.jobs.falsifications import read_found
-from svsa_server.jobs.queue import Job
+from svsa_server.jobs.job import Job
 from svsa_server.schemas.lab.opening import (
     FromActuator,
     FromArm,

@@ -17,7 +17,7 @@ from fastapi import FastAPI
 from svsa.evaluation.studies.file import read_study
 from svsa.evaluation.studies.store import keep_study
 from svsa_server.access.roles import Role
-from svsa_server.jobs.queue import Job
+from svsa_server.jobs.job import Job
 from tests.server.access.classroom import (
     SHARED,
     Classroom,

@@ -12,10 +12,11 @@ import pytest
 
 from svsa.errors import ParameterError, Violation
 from svsa_server.access.roles import INSTRUCTOR
-from svsa_server.jobs import queue
+from svsa_server.jobs import job as job_module
 from svsa_server.jobs.heavy_work import BusyError
 from svsa_server.jobs.progress import PERIOD_S, JobFolder, read_progress
-from svsa_server.jobs.queue import Jobs, Share
+from svsa_server.jobs.queue import Jobs
+from svsa_server.jobs.turns import Share
 from svsa_server.problems import TooManyError, UnknownError
 from svsa_server.schemas.evaluation.job import describe_job
 
@@ -168,7 +169,7 @@ def test_jobs_of_a_class_alternate_by_user_with_priority_of_the_instructor():
 def test_job_of_a_user_ends_at_its_time_limit_and_the_next_one_runs(
     monkeypatch: pytest.MonkeyPatch, work, kept: str
 ):
-    monkeypatch.setattr(queue, "GRACE_S", 0.5)
+    monkeypatch.setattr(job_module, "GRACE_S", 0.5)
 
     async def outstay(jobs):
         # The time of a job includes the start of the first worker, which takes seconds.

@@ -13,8 +13,9 @@ from svsa.evaluation.studies.file import read_study
 from svsa.evaluation.studies.stored import StoredStudy
 from svsa.runs.design_file import load_prototype
 from svsa_server.jobs import falsifications, gradings, submissions, tunings
+from svsa_server.jobs.job import Job
 from svsa_server.jobs.progress import PROGRESS, JobFolder
-from svsa_server.jobs.queue import MAX_KEPT, Job, Jobs
+from svsa_server.jobs.queue import MAX_KEPT, Jobs
 from svsa_server.jobs.saved import FILE, JobFolders
 from svsa_server.schemas.evaluation.job import describe_job
 from tests.lab import run_lab

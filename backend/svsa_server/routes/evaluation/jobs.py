@@ -14,7 +14,8 @@ from svsa.runs.configuration import Design
 from svsa_server.access.owned import Owned
 from svsa_server.access.permissions import OBSERVER, OPERATOR, allow
 from svsa_server.jobs import falsifications, tunings
-from svsa_server.jobs.queue import Job, Jobs, Kind
+from svsa_server.jobs.job import Job, Kind
+from svsa_server.jobs.queue import Jobs
 from svsa_server.routes.depends import BUSY, CREATED, REFUSALS, Locate, NamedPerson
 from svsa_server.routing import build_router
 from svsa_server.schemas.evaluation.falsification import FalsificationRequest

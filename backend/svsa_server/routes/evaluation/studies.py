@@ -27,7 +27,7 @@ from svsa.evaluation.studies.work import build_schema
 from svsa_server.access.owned import Owned
 from svsa_server.access.permissions import OBSERVER, OPERATOR, allow
 from svsa_server.access.roles import Person
-from svsa_server.jobs.queue import Job
+from svsa_server.jobs.job import Job
 from svsa_server.jobs.studies import decide, replay, run, summarize
 from svsa_server.jobs.study_rows import MAX_ROWS, MEDIA_TYPE, pack_rows
 from svsa_server.jobs.study_rows import read_row as find_row

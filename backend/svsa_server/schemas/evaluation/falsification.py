@@ -10,7 +10,7 @@ from svsa.evaluation.falsifier.adversary import Adversary
 from svsa.evaluation.falsifier.file import list_adversaries, parse_adversary, read_adversary
 from svsa.inputs.checked import Checked, Whole, quantity
 from svsa_server.jobs.falsifications import read_found, read_worst
-from svsa_server.jobs.queue import Job
+from svsa_server.jobs.job import Job
 from svsa_server.schemas.evaluation.scenario import LawOutcomeState, dump_scenario
 
 MAX_RUNS = 100_000

@@ -6,7 +6,7 @@ from pydantic import BaseModel, Field
 
 from svsa.errors import SvsaError
 from svsa.inputs.checked import BY_KIND
-from svsa_server.jobs.queue import Job, Kind, Status
+from svsa_server.jobs.job import Job, Kind, Status
 from svsa_server.problems import ShownText
 from svsa_server.schemas.evaluation.falsification import (
     FalsificationRequest,

@@ -22,7 +22,7 @@ from svsa.inputs import arrow as pa
 from svsa.inputs.checked import Checked, Whole, quantity
 from svsa_server.access.owned import Owned
 from svsa_server.access.roles import Person
-from svsa_server.jobs.queue import Job
+from svsa_server.jobs.job import Job
 from svsa_server.jobs.studies import MAX_ROWS
 from svsa_server.schemas.evaluation.estimate import Estimate
 from svsa_server.schemas.evaluation.job import JobState, describe_job

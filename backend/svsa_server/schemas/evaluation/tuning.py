@@ -11,7 +11,7 @@ from svsa.evaluation.tuning.tuner import BUDGET, Stage
 from svsa.inputs.checked import Checked, Number, Whole, quantity
 from svsa.runs.configuration import Lane
 from svsa_server.access.owned import Owned
-from svsa_server.jobs.queue import Job
+from svsa_server.jobs.job import Job
 from svsa_server.jobs.tunings import read_candidates
 
 MAX_BUDGET = 2000
