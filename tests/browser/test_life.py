@@ -28,7 +28,9 @@ FOOT_IS_AT = """height => {
 }"""
 BEGINS_BEFORE = "time => window.svsa.series('position_error_rad').time[0] < time"
 WRITE_NUMBERS = """number => {
-    for (const shown of document.querySelectorAll(".readout dd")) shown.textContent = `${number} deg`;
+    document.querySelectorAll(".readout dd").forEach((shown) => {
+        shown.textContent = `${number} deg`;
+    });
 }"""
 IS_WIDE = "width => document.documentElement.scrollWidth === width"
 
