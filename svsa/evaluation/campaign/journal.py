@@ -33,7 +33,14 @@ class Journal:
         self.known: list[Any] = lines[len(self._head) :] if is_same else []
 
     def write(self, trial: Any) -> None:
-        """Add a trial."""
+        """Add a trial.
+
+        Args:
+            trial: Its parameters and results, as JSON.
+
+        Raises:
+            OSError: If the file cannot be written.
+        """
         if self._path is None:
             return
         if not self._is_begun:
@@ -50,13 +57,27 @@ class Journal:
 
 
 def define_search(law: str, **settings: Any) -> dict[str, Any]:
-    """Define the trials of a law by settings, its code, and the version of the lab."""
+    """Define the trials of a law by settings, its code, and the version of the lab.
+
+    Args:
+        law: Name of the law.
+        **settings: What else determines the trials, as JSON.
+
+    Returns:
+        The definition of a `Journal`.
+    """
     code = find_fingerprint(get_law(law).control.py_func)
     return {"version": __version__, "law": law, "code": code} | settings
 
 
 def read_lines(path: Path) -> list[Any]:
     """Read the complete lines of a journal; none if it does not exist.
+
+    Args:
+        path: The file.
+
+    Returns:
+        The content of each line.
 
     Raises:
         ValueError: If a line is damaged.

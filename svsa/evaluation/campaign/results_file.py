@@ -14,8 +14,17 @@ M = TypeVar("M", bound=BaseModel)
 def read_results_file(kind: type[M], path: Path, command: str, name: str = "results") -> M:
     """Read the results of a command.
 
+    Args:
+        kind: Class of the results.
+        path: The file.
+        command: Command that writes such files, for the message.
+        name: Setting that contains the path, for the message.
+
+    Returns:
+        The results.
+
     Raises:
-        ParameterError: If the command does not write such a file; `name` is that of the setting.
+        ParameterError: If the file cannot be read, or is not one of this command.
     """
     try:
         return kind.model_validate_json(path.read_bytes())
@@ -25,5 +34,13 @@ def read_results_file(kind: type[M], path: Path, command: str, name: str = "resu
 
 
 def write_results_file(path: Path, results: BaseModel) -> None:
-    """Write results; an interruption leaves the former ones."""
+    """Write results; an interruption leaves the former ones.
+
+    Args:
+        path: The file.
+        results: What `read_results_file` returns.
+
+    Raises:
+        OSError: If the file cannot be written.
+    """
     replace_file(path, (results.model_dump_json(indent=1) + "\n").encode())

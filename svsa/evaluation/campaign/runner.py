@@ -25,6 +25,9 @@ def run_parts(
         parts: Requested when a worker is free. If the iterator is closed early, and at Ctrl-C, no
             further part begins, and those in progress are completed.
 
+    Yields:
+        A part and its result.
+
     Raises:
         KeyboardInterrupt: At Ctrl-C, after the parts in progress.
         BrokenProcessPool: If a process was ended from outside.
