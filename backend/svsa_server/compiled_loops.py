@@ -82,3 +82,4 @@ async def _compile(*arguments: str) -> None:
         _begun.clear()
         if process.returncode is None:
             process.kill()
+            await process.wait()

@@ -40,6 +40,7 @@ _INVALID_FUNCTION = 3
 _MEMORY = "The server keeps the memory of the compiler, up to 0.5 GB, until it ends."
 
 _one_at_a_time = Lock()
+_running: list[subprocess.Popen[bytes]] = []
 _reports: list[Callable[[str], None]] = []
 """Called with the reason if a child has failed; empty if this process compiles itself."""
 
@@ -125,17 +126,14 @@ def prepare_code(dispatcher: Any, signature: Any) -> None:
             _stop_children(dispatcher)
             return
         try:
-            ended = subprocess.run(  # noqa: S603  this program itself
-                [sys.executable, "-c", CHILD],
-                input=pickle.dumps(sys.path) + dumps((os.getpid(), *name)) + dumps(signature),
-                stdout=subprocess.DEVNULL,
-                stderr=subprocess.PIPE,
-                check=False,
+            code, errors = _run_child(
+                pickle.dumps(sys.path) + dumps((os.getpid(), *name)) + dumps(signature)
             )
-            code, errors = ended.returncode, ended.stderr.decode(errors="replace")
         except (OSError, TypeError, pickle.PickleError) as error:
             code, errors = 1, str(error)
         if code == _INVALID_FUNCTION or (code == 0 and _is_available(dispatcher, signature)):
+            return
+        if not _reports:  # `end_children` has ended it
             return
         if code == 0:
             _stop_children(dispatcher)
@@ -144,6 +142,30 @@ def prepare_code(dispatcher: Any, signature: Any) -> None:
             f"The process that compiles {name[1]} has failed: {describe_end(code, errors)}."
             f" {name[1]} is compiled in the server instead. {_MEMORY}"
         )
+
+
+def _run_child(request: bytes) -> tuple[int, str]:
+    """Return the exit code and the standard error of a child that compiles a request."""
+    with subprocess.Popen(  # noqa: S603  this program itself
+        [sys.executable, "-c", CHILD],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+    ) as child:
+        _running.append(child)
+        try:
+            errors = child.communicate(request)[1]
+        finally:
+            _running.remove(child)
+    return child.returncode, errors.decode(errors="replace")
+
+
+def end_children() -> None:
+    """End the child that compiles now, and compile in this process from now on."""
+    _reports.clear()
+    for child in _running[:]:
+        child.kill()
+        child.wait()
 
 
 def can_store(dispatcher: Any) -> bool:

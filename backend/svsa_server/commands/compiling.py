@@ -2,9 +2,11 @@
 may select, the laws and the loop of other actuators.
 """
 
+import signal
 import subprocess
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from types import FrameType
 from typing import Any
 
 from svsa.actuators.installed import list_mechanism_names
@@ -17,6 +19,7 @@ from svsa.numerics.separate_compilation import (
     can_store,
     compile_in_children,
     describe_end,
+    end_children,
 )
 from svsa.simulation.loop.loop import advance
 from svsa_server.compiled_loops import LOWEST_PRIORITY, is_compiled_for
@@ -31,6 +34,32 @@ COMPILE_FIRST = "from svsa.cli import main; main()"
 END_S = 2.0
 
 
+class _TerminatedError(BaseException):
+    """SIGTERM was received."""
+
+
+@contextmanager
+def finish_before_sigterm() -> Iterator[None]:
+    """Leave the block by an exception on SIGTERM, then end the process by that signal.
+
+    The signal would end it at once, also when uvicorn repeats it after the shutdown, and compiling
+    processes would write to the cache after the server has ended.
+    """
+
+    def leave(number: int, frame: FrameType | None) -> None:
+        raise _TerminatedError
+
+    before = signal.signal(signal.SIGTERM, leave)
+    try:
+        yield
+    except _TerminatedError:
+        signal.signal(signal.SIGTERM, before)
+        signal.raise_signal(signal.SIGTERM)
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
+@finish_before_sigterm()
 def prepare_apart(
     report: Callable[[str], None], laws: tuple[str, ...] = (), actuator: str = SVSA
 ) -> None:
@@ -67,8 +96,19 @@ def _is_compiled(control: Any) -> bool:
 def compile_laws() -> Iterator[None]:
     """Compile every installed law and the loop of other actuators, in a separate process.
 
-    It has the lowest priority, and ends with the block at the latest.
+    It has the lowest priority. It and all other compiling processes end with the block at the
+    latest, before SIGTERM ends this process.
     """
+    with finish_before_sigterm():
+        try:
+            with _compile_others():
+                yield
+        finally:
+            end_children()
+
+
+@contextmanager
+def _compile_others() -> Iterator[None]:
     laws = [get_law(name).control for name in filter(is_usable, list_law_names())]
     is_stored = all(map(_is_compiled, laws)) and is_compiled_for(OTHER, PAPERS_LAW)
     if is_stored or not can_store(advance):

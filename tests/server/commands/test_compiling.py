@@ -1,8 +1,12 @@
 """Unused laws and the loop of other actuators are compiled in parallel with the server."""
 
+import os
 import signal
 import subprocess
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
 
 import pytest
 
@@ -10,7 +14,6 @@ from svsa_server.commands import compiling
 from svsa_server.commands.compiling import compile_laws
 from svsa_server.compiled_loops import is_compiled_for
 from tests.benchmarks.attacks import read_memory_mb
-from tests.exhaustive import exhaust
 from tests.lab import run_lab
 from tests.waiting import is_running, wait_until
 
@@ -88,10 +91,10 @@ def test_server_that_has_compiled_is_as_small_as_one_that_has_loaded_its_code(tm
     assert sizes_mb[0] - sizes_mb[1] < 40.0
 
 
-@pytest.mark.exhaustive
-@pytest.mark.parametrize("kind", exhaust(["first law", "other laws", "request"], ["first law"]))
-def test_compiling_process_ends_with_a_killed_server(kind, tmp_path):
-    ready = tmp_path / "pid"
+@contextmanager
+def started_in_a_server(kind: str, folder: Path) -> Iterator[tuple[subprocess.Popen[bytes], int]]:
+    """A process that compiles like a server, and the id of the process that it has started."""
+    ready = folder / "pid"
     child = f"import os; open({str(ready)!r}, 'w').write(f'{{os.getpid()}};'); {WAIT}"
     start = {
         "first law": "compiling.COMPILE_FIRST = child; is_stored = lambda *_: False;"
@@ -99,13 +102,35 @@ def test_compiling_process_ends_with_a_killed_server(kind, tmp_path):
         "other laws": "compiling.PREPARE = child; compiling._is_compiled = lambda _: False\n"
         "with compiling.compile_laws(): time.sleep(600)",
         "request": "compiled_loops.COMPILE = child; asyncio.run(compiled_loops._compile('ndobc'))",
+        "function": "compiling._is_compiled = lambda _: True; from svsa.numerics import"
+        " separate_compilation as apart, trigonometry; apart.CHILD = child;"
+        " apart.compile_in_children(print); import threading\n"
+        "with compiling.compile_laws():\n"
+        "    threading.Thread(target=trigonometry.cos, args=(0.0,)).start(); time.sleep(600)",
     }[kind]
     program = (
         "import asyncio, time; from svsa_server import compiled_loops;"
         f" from svsa_server.commands import compiling; child = {child!r}\n{start}"
     )
-    server = subprocess.Popen([sys.executable, "-c", program])
-    wait_until(lambda: ready.exists() and ready.read_text().endswith(";"))
-    server.kill()
-    server.wait()
-    wait_until(lambda: not is_running(int(ready.read_text()[:-1])))
+    environment = os.environ | {"SVSA_CACHE": str(folder)}
+    with subprocess.Popen([sys.executable, "-c", program], env=environment) as server:
+        wait_until(lambda: ready.exists() and ready.read_text().endswith(";"))
+        yield server, int(ready.read_text()[:-1])
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("kind", ["first law", "other laws", "request"])
+def test_compiling_process_ends_with_a_killed_server(kind, tmp_path):
+    with started_in_a_server(kind, tmp_path) as (server, process):
+        server.kill()
+    wait_until(lambda: not is_running(process))
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("kind", ["first law", "other laws", "function"])
+def test_compiling_process_ends_before_a_terminated_server(kind, tmp_path):
+    """Otherwise it writes to the cache, or to the folder of a test, when the server has ended."""
+    with started_in_a_server(kind, tmp_path) as (server, process):
+        server.terminate()
+    assert server.returncode == -signal.SIGTERM
+    assert not is_running(process)
