@@ -170,7 +170,9 @@ def summarize(state: dict) -> dict:
         pytest.param(
             {"actuator": "qbmove", "law": "ndobc", "seed": 7}, operate_actuator, id="actuator"
         ),
-        pytest.param({"arm": "rods", "seed": 7}, operate_arm, id="arm"),
+        pytest.param(
+            {"arm": "rods", "seed": 7}, operate_arm, id="arm", marks=pytest.mark.exhaustive
+        ),
         pytest.param(
             {"arm": "maccepa", "actuators": ["maccepa", "qbmove"]},
             operate_tip,

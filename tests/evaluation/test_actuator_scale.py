@@ -127,6 +127,7 @@ def test_rates_of_a_tuned_law_are_scaled_by_the_default_gains_of_the_actuator():
             assert value < other if is_less else value == other, (law, axis.label)
 
 
+@pytest.mark.long
 def test_declared_laws_have_no_fault_on_qbmove_with_the_effects_of_a_bench():
     """With the gains of the SVSA, NDOBC ended in a fault in each of these scenarios."""
     entry = build_entry(DECLARED, "qbmove")

@@ -147,6 +147,7 @@ def test_ended_run_keeps_its_last_state_and_other_runs_continue() -> None:
     assert len(set(summaries["ticks"])) > 1
 
 
+@pytest.mark.exhaustive
 @settings(max_examples=12, deadline=None)
 @given(drawn=st.lists(what_is_asked, min_size=2, max_size=11))
 def test_every_run_has_its_own_references_and_loads(drawn: list) -> None:

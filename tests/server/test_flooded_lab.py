@@ -113,6 +113,7 @@ def is_open(connection: socket.socket) -> bool:
         return False
 
 
+@pytest.mark.exhaustive
 def test_one_address_has_limited_connections_and_others_are_not_affected(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
@@ -146,6 +147,7 @@ def open_forwarded(lab: Lab, address: str, stack: contextlib.ExitStack) -> int:
     return int(connection.recv(12).split()[1])
 
 
+@pytest.mark.exhaustive
 def test_repeated_error_is_logged_once_per_second_with_its_count() -> None:
     code = """
 import logging, time

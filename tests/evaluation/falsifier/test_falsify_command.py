@@ -85,6 +85,7 @@ def test_unwritable_result_file_is_rejected_before_the_search(tmp_path, monkeypa
             search(f"--{option}", place)
 
 
+@pytest.mark.exhaustive
 def test_search_is_compared_with_random_samples_seed_by_seed(tmp_path):
     (tmp_path / "pulse.toml").write_text(GOOD)
     reported = json.loads(

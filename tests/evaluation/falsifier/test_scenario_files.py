@@ -81,6 +81,7 @@ def test_adversary_file_with_the_former_field_name_is_read(tmp_path):
     assert read_adversary(path).cost == "peak"
 
 
+@pytest.mark.long
 def test_scenario_file_runs_with_its_loads_and_settings(tmp_path):
     path = tmp_path / "own.toml"
     path.write_text(SCENARIO)
@@ -123,6 +124,7 @@ def test_grid_and_too_many_loads_are_rejected():
         good.changed(base={"loads": [load] * 16})
 
 
+@pytest.mark.long
 def test_scenario_is_saved_under_a_unique_name(monkeypatch, tmp_path):
     monkeypatch.setenv("SVSA_DATA", str(tmp_path / "data"))
     file = tmp_path / "own.toml"

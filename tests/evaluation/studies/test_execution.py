@@ -19,6 +19,8 @@ from tests.evaluation.studies.ended import end_before_completion
 from tests.evaluation.studies.studies import SHORT_S, build_study
 from tests.exhaustive import exhaust
 
+pytestmark = pytest.mark.long
+
 
 def run_whole(root, workers=0, rows_per_part=16, **changes):
     stored = keep_study("one", build_study(**changes), root)
@@ -26,7 +28,6 @@ def run_whole(root, workers=0, rows_per_part=16, **changes):
     return stored
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("how", exhaust([(0, 1000), (1, 10), (2, 8)], [(1, 10)]))
 def test_table_does_not_depend_on_parts_and_workers(tmp_path, how):
     one = run_whole(tmp_path / "one", 0, 6).folder / "rows.parquet"
@@ -37,7 +38,6 @@ def test_table_does_not_depend_on_parts_and_workers(tmp_path, how):
     assert {row["fault"] for row in rows} == {None, "deflection_limit"}
 
 
-@pytest.mark.long
 def test_numbers_are_stored_plainly_and_names_in_a_dictionary(tmp_path):
     """A dictionary of unique numbers would cost three times the rest of the writing."""
     stored = run_whole(tmp_path)
@@ -123,7 +123,6 @@ def test_study_has_one_process_at_a_time(tmp_path):
         run_study(stored, 0)
 
 
-@pytest.mark.long
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")
 @pytest.mark.parametrize("how", exhaust([signal.SIGINT, signal.SIGKILL], [signal.SIGKILL]))
 def test_ended_study_continues_to_the_same_table(tmp_path, how):

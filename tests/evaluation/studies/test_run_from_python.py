@@ -6,6 +6,8 @@ import svsa
 from svsa.errors import ParameterError
 from svsa.evaluation.studies.file import read_study
 
+pytestmark = pytest.mark.long
+
 
 def test_study_is_run_and_continued_and_returns_a_row_for_each_run(tmp_path, monkeypatch):
     monkeypatch.setenv("SVSA_DATA", str(tmp_path))

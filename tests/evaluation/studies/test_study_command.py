@@ -22,6 +22,8 @@ from svsa.evaluation.studies.stored import StudyError
 from svsa.evaluation.studies.work import ROW, run_trials
 from tests.evaluation.studies.studies import SHORT_S, build_study
 
+pytestmark = pytest.mark.long
+
 
 @pytest.fixture(scope="module")
 def data(tmp_path_factory):
@@ -64,7 +66,6 @@ def test_success_is_that_of_the_table(data):
     assert "fault" in run("show", "one")
 
 
-@pytest.mark.long
 def test_study_with_chosen_metrics_stores_shows_replays_and_plots_them(data, tmp_path):
     kept = ("limit_share", "peak_torque2_nm", "effort_n2m2_s")
     few = build_study(metrics=kept, runs=8, success={"rms_position_error_rad": 0.2})
@@ -184,7 +185,6 @@ def test_outcome_is_an_option_of_sensitivity_studies_only(data):
 
 
 @pytest.mark.exhaustive
-@pytest.mark.long
 def test_pictures_show_the_available_results(data, tmp_path):
     run("show", "one", "--pictures", str(tmp_path))
     names = sorted(path.name for path in tmp_path.iterdir())

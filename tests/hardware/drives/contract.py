@@ -240,6 +240,7 @@ class DriveContract:
                 )
         assert drive.describe_error()
 
+    @pytest.mark.exhaustive
     def test_capture_is_decoded_with_its_dbc(self, rig: Rig) -> None:
         """Every frame on the bus has a message, in both directions."""
         database = cantools.database.load_string(describe_bench(rig.bench), "dbc")

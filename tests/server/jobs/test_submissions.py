@@ -50,6 +50,7 @@ def test_failing_law_is_rejected_by_its_job_without_an_entry(lab, data):
     assert lab.get(BOARD).json()["entries"] == []
 
 
+@pytest.mark.exhaustive
 def test_cancelled_submission_has_no_entry(lab):
     begun = lab.post(f"{BOARD}/submissions", json={"name": "Mine", "law": LAZY.decode()}).json()
     name = begun["job"]["id"]

@@ -17,6 +17,7 @@ def lab():
         yield lab.client
 
 
+@pytest.mark.exhaustive
 def test_tuning_is_followed_to_its_end_and_applied_to_a_session(lab):
     asked = {"kind": "tuning", "law": "fl_integral", "budget": 2, "seed": 1}
     begun = lab.post(JOBS, json=asked)

@@ -72,6 +72,7 @@ def test_patch_of_both_joints_keeps_what_differs_between_them(lab: Lab, path: st
         assert new["nominal"] == old["nominal"] | damping
 
 
+@pytest.mark.exhaustive
 def test_value_that_one_joint_rejects_changes_neither(lab: Lab) -> None:
     state = open_arm(lab, actuators=["svsa", "qbmove"])
     path = f"{SESSIONS}/{state['session']}"

@@ -68,6 +68,7 @@ def test_invalid_or_unrequested_law_is_rejected(student, lab):
     assert "requires no law" in other.json()["detail"]
 
 
+@pytest.mark.exhaustive
 def test_submitted_law_has_a_reproducible_grade(student, data, own_law, tmp_path, monkeypatch):
     monkeypatch.setattr(law_points, "BLOCK", 8)
     monkeypatch.setattr(law_points, "MOST_TRIALS", 8)
