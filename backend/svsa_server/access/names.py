@@ -6,7 +6,9 @@ Two names are the same if they differ by case, spaces, Unicode forms or look-ali
 
 import re
 import unicodedata
+from contextlib import suppress
 from functools import cache
+from string import ascii_lowercase
 
 from confusable_homoglyphs.utils import load
 
@@ -19,11 +21,14 @@ _INVISIBLE = re.compile(
     "\U000e0100-\U000e01ef]"
 )
 _SPACES = re.compile("[ \u00a0\u1680\u2000-\u200a\u202f\u205f\u3000]+")
-_ID = re.compile(r"p-?[0-9a-f]{12,24}", re.IGNORECASE)
+_WORD = re.compile(r"[^\W_]+")
+_NUMBERS = re.compile(r"\b\d+|\d+\b")
+_ID = re.compile(r"p[0-9a-fol]{12,24}")
+"""The key of an id: 0 and 1 look like letters."""
 _WORDS = """
     instructor teacher lecturer professor prof tutor moderator supervisor staff observer operator
     student lab svsa svsalab laboratory system server admin administrator root superuser owner
-    host bench shared script user anonymous everyone all unknown none null
+    host bench shared script user anonymous everyone unknown none null
     undefined you me stranger notsignedin
     dozent dozentin lehrer lehrerin betreuer betreuerin tutorin professorin studentin beobachter
     professeur professeure enseignant enseignante instructeur instructrice formateur formatrice
@@ -68,26 +73,29 @@ def clean_name(name: str) -> str:
 
 def is_reserved(name: str) -> bool:
     """Return whether a name is that of a role, of the lab or an id."""
-    plain = _strip_marks(unicodedata.normalize("NFKC", name))
-    words = re.findall(r"\w+", plain)
-    joined = "".join(words)
-    if _ID.fullmatch(joined):
-        return True
     whole, inside = _list_reserved()
-    candidates = {joined, joined.strip("0123456789_")}
-    return any(list_keys(candidate) & whole for candidate in candidates) or any(
-        list_keys(word) & inside for word in words
-    )
+    for text in (name, _NUMBERS.sub("", name.replace("_", " "))):
+        for words in _list_words(text):
+            joined = "".join(words)
+            if joined in whole or _ID.fullmatch(joined) or not inside.isdisjoint(words):
+                return True
+    return False
 
 
 def list_keys(name: str) -> frozenset[str]:
     """Return the keys of a name: two names look alike if they share one.
 
-    One key folds the case before the letters, the other one after: a capital `I` looks like `l`, a
-    small one does not.
+    One key folds the case before the letters, the others after: a capital `I` looks like `l`, a
+    small one does not. NFKC makes a sigma of a letter that looks like `C`.
     """
-    name = " ".join(unicodedata.normalize("NFKC", name).split())
-    return frozenset(_fold(spelling) for spelling in (name, name.casefold()))
+    name = " ".join(name.split())
+    normal = " ".join(unicodedata.normalize("NFKC", name).split())
+    return frozenset(_fold(spelling) for spelling in (name, normal, normal.casefold()))
+
+
+def _list_words(text: str) -> list[list[str]]:
+    """List the words of each key of a text: of letters, and of what looks like them, unmarked."""
+    return [_WORD.findall(_strip_marks(key)) for key in list_keys(text)]
 
 
 def _fold(name: str) -> str:
@@ -98,7 +106,7 @@ def _fold(name: str) -> str:
 
 def _strip_marks(name: str) -> str:
     decomposed = unicodedata.normalize("NFD", name)
-    return "".join(character for character in decomposed if not unicodedata.combining(character))
+    return "".join(letter for letter in decomposed if unicodedata.category(letter)[0] != "M")
 
 
 def _has_stack(name: str) -> bool:
@@ -115,11 +123,11 @@ def _list_reserved() -> tuple[frozenset[str], frozenset[str]]:
     """List the keys of reserved names, and of words that are reserved within a name."""
     whole, inside = (
         frozenset(
-            key
+            "".join(listed)
             for word in words.split()
             # A capital `I` has other look-alikes than a small one.
-            for form in (word, word.capitalize(), word.upper())
-            for key in list_keys(_strip_marks(form))
+            for form in (word, word.capitalize(), word.upper(), word.replace("i", "I"))
+            for listed in _list_words(form)
         )
         for words in (_WORDS, _WORDS_IN_NAMES)
     )
@@ -141,4 +149,8 @@ def _read_prototypes() -> dict[int, str]:
         other = alike[0]["c"].strip("\u200e")
         is_pair = len(table.get(other, ())) == 1
         prototypes[ord(letter)] = min(letter, other) if is_pair else other
+    for letter in ascii_lowercase:
+        with suppress(KeyError):
+            small_capital = unicodedata.lookup(f"LATIN LETTER SMALL CAPITAL {letter}")
+            prototypes[ord(small_capital)] = prototypes.get(ord(letter), letter)
     return prototypes

@@ -22,7 +22,9 @@ ROLES = (
     "\u0130nstructor", "\U0001d408nstructor", "\u2139nstructor", "I-nstructor", "Dozent",
     "Преподаватель", "老师", "先生", "교수", "أستاذ", "Enseignant", "Öğretmen", "Profesora",
     "system", "Lab", "ADMIN", "admin1", "\u0410dmin", "Adrnin", "SVSA Lab", "Observer",
-    "p-0123456789ab", "Teacher", "Not signed in",
+    "p-0123456789ab", "Teacher", "Not signed in", "|nstructor", "In_structor", "Adm1n", "Adm|n",
+    "The admin1", "\u0142nstruct\u00f8r", "INSTRU\u03f9TOR", "प्रशिक्षक", "p_0123456789ab",
+    "\u0440-0123456789\u0430b", "\u026a\u0274s\u1d1b\u0280\u1d1c\u1d04\u1d1b\u1d0f\u0280",
 )  # fmt: skip
 EMPTY = (
     "", "   ", "\u200b", "\u3164", "\u2800", "\u115f", "\u0301", "...", "---", "(", "'",
@@ -36,7 +38,7 @@ FORMULAS = ("=1+1", "+Ada", "-Ada", "@Ada", "\uff1d1+1", "  =Ada", "\uff20Ada")
 REAL = (
     "Ada", "Ada Lovelace", "O'Brien", "'t Hooft", "Jean-Luc", "José", "Nguyễn Văn An", "李雷",
     "Мария", "محمد علي", "ขวัญ", "नमस्ते", "12345", "Tom Lehrer", "Łukasz", "Labib", "Bob 2",
-    "Admiral Hopper", "Ada (2)", "Zoë 🙂",
+    "Admiral Hopper", "ALI", "Ada (2)", "Zoë 🙂",
 )  # fmt: skip
 ALIKE = (
     ("Ada", "ada"), ("Ada", "\u0410d\u0430"), ("Ada", " Ada "), ("Ada", "Ad\u03b1"),
