@@ -14,6 +14,7 @@ from pydantic import AfterValidator, BaseModel, Field
 import svsa
 from svsa.errors import SvsaError, Violation, write_value
 from svsa.inputs.data_folder import find_data_folder
+from svsa.inputs.explanation import MAX_PROBLEMS
 
 MEDIA_TYPE = "application/problem+json"
 TYPE_PREFIX = "urn:svsa:problem:"
@@ -109,7 +110,9 @@ class Problem(BaseModel):
         examples=["frequency_hz is 9.0 Hz: it must be at most 5 Hz."],
         description="Explanation of this error",
     )
-    violations: list[ViolationModel] = Field(default=[], description="Every rejected value")
+    violations: list[ViolationModel] = Field(
+        default=[], description="The first 100 rejected values"
+    )
 
 
 def hide_places(text: str) -> str:
@@ -158,7 +161,8 @@ def answer_problem(
 
 
 def answer_violations(violations: Sequence[Violation], place: str = "") -> JSONResponse:
-    """Build the answer that contains every rejected value; `place` is file and lines, or ""."""
+    """Build the answer that contains the rejected values; `place` is file and lines, or ""."""
+    violations = violations[:MAX_PROBLEMS]
     detail = " ".join(violation.message for violation in violations)
     detail = f"{place}: {detail}" if place else detail
     return answer_problem(422, "out_of_range", detail, violations=violations)

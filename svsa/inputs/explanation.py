@@ -10,6 +10,9 @@ from pydantic.fields import FieldInfo
 from svsa.errors import ParameterError, Violation, write_number
 from svsa.inputs.nearest import find_nearest
 
+MAX_PROBLEMS = 100
+"""Problems that are explained: a request may have a hundred thousand, which would take minutes."""
+
 
 def explain(error: ValidationError, model: type[BaseModel] | None = None) -> list[Violation]:
     """Explain a validation error with the path of each field.
@@ -34,9 +37,10 @@ def explain_problems(
         fields: Names with which each loc begins; None if all problems are about one value.
 
     Returns:
-        The violations. If a value fits none of several types, only the error of the nearest type is
-        reported.
+        The violations of the first `MAX_PROBLEMS`. If a value fits none of several types, only the
+        error of the nearest type is reported.
     """
+    problems = problems[:MAX_PROBLEMS]
     named = 0 if fields is None else 1
     paths = [_find_path(problem["loc"], named) for problem in problems]
     violations: dict[tuple[Any, ...], list[Violation]] = {}

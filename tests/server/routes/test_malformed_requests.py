@@ -1,7 +1,10 @@
 """Malformed requests: invalid JSON, unknown routes, oversized bodies, and their errors."""
 
+import json
+
 import pytest
 
+from svsa.inputs.explanation import MAX_PROBLEMS
 from svsa_server.problems import MEDIA_TYPE, TYPE_PREFIX
 from tests.lab import Lab
 
@@ -151,3 +154,22 @@ def test_integer_of_thousands_of_digits_is_rejected(lab: Lab, number: str) -> No
     answer = lab.client.put(lab.session + "/nominal", json={"toml": text})
     assert answer.status_code == 422
     assert "digits" in answer.json()["detail"]
+
+
+@pytest.mark.parametrize(
+    ("method", "path", "body"),
+    [
+        ("POST", "/api/v1/login", dict.fromkeys(map(str, range(100_000)))),
+        ("PUT", "/api/v1/sessions/lab/position", {"kind": "steps", "time_s": ["x"] * 100_000}),
+        ("GET", "/api/v1/health?" + "&".join(f"k{number}" for number in range(5000)), None),
+    ],
+    ids=["unknown fields", "list", "query"],
+)
+def test_only_the_first_of_many_problems_are_explained(
+    lab: Lab, method: str, path: str, body: dict | None
+) -> None:
+    """All of them would take minutes, during which no session advances."""
+    headers = {"Content-Type": "application/json"}
+    answer = lab.client.request(method, path, content=json.dumps(body), headers=headers)
+    assert answer.status_code == 422
+    assert 0 < len(answer.json()["violations"]) <= MAX_PROBLEMS
