@@ -8,7 +8,7 @@ from svsa.control.installed import LawName, get_title
 from svsa.errors import Fault
 from svsa.runs.command import ApplyLoad, Command, RemoveLoad, Set
 from svsa.runs.configuration import Configuration
-from svsa.runs.replay import list_loads
+from svsa.runs.loads import list_loads
 from svsa.simulation.plant.loads import Load
 
 

@@ -3,6 +3,8 @@
 from collections import deque
 from collections.abc import Iterable, Iterator
 
+from svsa.runs.command import ApplyLoad, Command, RemoveLoad
+from svsa.runs.configuration import Configuration
 from svsa.simulation.plant.load_table import ScheduledLoad, continue_push, schedule_load
 from svsa.simulation.plant.loads import Load
 
@@ -76,6 +78,29 @@ def trace_loads(
             number += 1
             _, loads = give_load(loads, number, change, tick, period)
         yield tick, loads
+
+
+def list_loads(configuration: Configuration, commands: Iterable[Command]) -> Loads:
+    """List every load of a run, with its first and last tick."""
+    changes = _select_load_changes(commands)
+    return follow_loads(configuration.planned_loads, changes, configuration.sampling.period_s)
+
+
+def list_load_changes(
+    configuration: Configuration, commands: Iterable[Command]
+) -> list[tuple[int, Loads]]:
+    """List the loads of a run after each change, with its tick; see `trace_loads`."""
+    changes = _select_load_changes(commands)
+    period = configuration.sampling.period_s
+    return list(trace_loads(configuration.planned_loads, changes, period))
+
+
+def _select_load_changes(commands: Iterable[Command]) -> list[tuple[int, Load | int]]:
+    return [
+        (command.tick, command.argument)
+        for command in commands
+        if isinstance(command, ApplyLoad | RemoveLoad)
+    ]
 
 
 def _end(load: ScheduledLoad, tick: int) -> ScheduledLoad:

@@ -1,4 +1,4 @@
-"""Replay of a run from configuration and commands: every sample, and its loads."""
+"""Replay of a run from configuration and commands: every sample."""
 
 from collections.abc import Iterable, Iterator
 
@@ -7,11 +7,9 @@ import numpy as np
 from svsa.actuators.signals import CHANNELS
 from svsa.errors import StateError
 from svsa.runs.arm.run import build_run
-from svsa.runs.command import ApplyLoad, Command, RemoveLoad
+from svsa.runs.command import Command
 from svsa.runs.configuration import Configuration
-from svsa.runs.loads import Loads, follow_loads, trace_loads
 from svsa.runs.run import Run
-from svsa.simulation.plant.loads import Load
 
 STRETCH_TICKS = 10_000
 
@@ -89,26 +87,3 @@ def simulate_again(
         skipped = max(0, first_tick - (run.tick - samples.shape[1]))
         if skipped < samples.shape[1]:
             yield samples[:, skipped:]
-
-
-def list_loads(configuration: Configuration, commands: Iterable[Command]) -> Loads:
-    """List every load of a run, with its first and last tick."""
-    changes = _select_load_changes(commands)
-    return follow_loads(configuration.planned_loads, changes, configuration.sampling.period_s)
-
-
-def list_load_changes(
-    configuration: Configuration, commands: Iterable[Command]
-) -> list[tuple[int, Loads]]:
-    """List the loads of a run after each change, with its tick; see `trace_loads`."""
-    changes = _select_load_changes(commands)
-    period = configuration.sampling.period_s
-    return list(trace_loads(configuration.planned_loads, changes, period))
-
-
-def _select_load_changes(commands: Iterable[Command]) -> list[tuple[int, Load | int]]:
-    return [
-        (command.tick, command.argument)
-        for command in commands
-        if isinstance(command, ApplyLoad | RemoveLoad)
-    ]

@@ -22,7 +22,7 @@ from svsa.runs.controllers import (
 )
 from svsa.runs.events import describe_change, describe_end, list_laws
 from svsa.runs.lane_origins import find_lane_origins
-from svsa.runs.replay import list_loads
+from svsa.runs.loads import list_loads
 from svsa.simulation.plant.loads import Load
 
 MAX_WINDOWS = 1000

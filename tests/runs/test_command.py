@@ -8,8 +8,7 @@ from hypothesis import strategies as st
 
 import svsa
 from svsa.runs.command import COMMANDS, RemoveLoad, Set, build_command, fold, read_command
-from svsa.runs.loads import follow_loads
-from svsa.runs.replay import list_loads
+from svsa.runs.loads import follow_loads, list_loads
 from svsa.runs.run import Run
 from tests.runs.session.scripts import ARGUMENTS, loads, scripted
 from tests.runs.session.sessions import build_configuration

@@ -7,11 +7,11 @@ import numpy as np
 from svsa.runs.command import Command
 from svsa.runs.configuration import Configuration
 from svsa.runs.events import list_events
+from svsa.runs.loads import list_loads
 from svsa.runs.records.measured_window import find_measured_window, trace_record
 from svsa.runs.records.reader import Record
 from svsa.runs.records.resimulation import read_origin
 from svsa.runs.records.settings import describe_settings
-from svsa.runs.replay import list_loads
 from svsa_scene.pose import LaneSegment
 from svsa_scene.replay import build_replay_html
 from svsa_scene.replay_scenes import ReplayArm

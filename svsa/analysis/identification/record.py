@@ -16,9 +16,9 @@ from svsa.errors import SvsaError
 from svsa.numerics.exponential import exp
 from svsa.runs.command import Command, fold
 from svsa.runs.configuration import Configuration
+from svsa.runs.loads import list_loads
 from svsa.runs.records.reader import Record
 from svsa.runs.records.resimulation import read_origin
-from svsa.runs.replay import list_loads
 from svsa.simulation.plant.effects import NO_EFFECTS, build_effect_constants
 
 SEGMENT_S = 0.25

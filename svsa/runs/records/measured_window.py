@@ -5,10 +5,10 @@ from collections.abc import Iterable
 from dataclasses import asdict, dataclass, replace
 
 from svsa.errors import SvsaError
+from svsa.runs.loads import list_loads
 from svsa.runs.metrics import MEASURED, Metrics, RunningMetrics
 from svsa.runs.records.reader import Record
 from svsa.runs.records.resimulation import read_origin
-from svsa.runs.replay import list_loads
 from svsa.runs.timeline import Timeline, Window, WindowKind, read_timeline
 
 

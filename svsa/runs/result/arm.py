@@ -18,7 +18,7 @@ from svsa.runs.arm.experiment import split_joints
 from svsa.runs.command import Command
 from svsa.runs.configuration import Configuration
 from svsa.runs.events import find_law
-from svsa.runs.replay import list_loads
+from svsa.runs.loads import list_loads
 from svsa.runs.result.law_style import name_law
 from svsa.runs.result.result import Result
 from svsa.simulation.arm.tip_loads import build_tip_table, compute_wall_force

@@ -19,8 +19,8 @@ from svsa.analysis.identification.record import (
 )
 from svsa.runs.command import build_command
 from svsa.runs.design_file import read_design
+from svsa.runs.loads import list_loads
 from svsa.runs.records.catalogue.runs import Catalogue
-from svsa.runs.replay import list_loads
 from svsa.simulation.plant.effects.current_lag import CurrentLag
 from svsa.simulation.plant.effects.encoders import Encoders
 from svsa.simulation.plant.effects.friction import Friction
