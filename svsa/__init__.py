@@ -19,14 +19,14 @@ from svsa.errors import FaultError, ParameterError, StateError, SvsaError
 from svsa.evaluation.reproduction import reproduce
 from svsa.inputs.extras import MissingExtraError
 from svsa.inputs.extras import __version__ as __version__
-from svsa.runs import paper
-from svsa.runs.change import Change
-from svsa.runs.configuration import ArmSetup, Configuration, Design, Lane
-from svsa.runs.design_file import load_prototype, read_design, write_design
+from svsa.runs.definition import paper
+from svsa.runs.definition.change import Change
+from svsa.runs.definition.configuration import ArmSetup, Configuration, Design, Lane
+from svsa.runs.definition.design_file import load_prototype, read_design, write_design
+from svsa.runs.execution.stepper import Observation, Stepper
 from svsa.runs.result.channels import ChannelName
 from svsa.runs.result.result import Result
 from svsa.runs.result.simulate import simulate
-from svsa.runs.stepper import Observation, Stepper
 from svsa.simulation.plant.effects import IDEAL, RIG, Effects
 from svsa.simulation.plant.loads import LOADS
 from svsa.simulation.plant.loads.constant import ConstantLoad
@@ -57,7 +57,7 @@ if TYPE_CHECKING:
     from svsa.evaluation.studies.run import run_study
     from svsa.evaluation.sweep import sweep
     from svsa.evaluation.tuning.tuner import tune
-    from svsa.runs.environment import ActuatorEnv
+    from svsa.runs.execution.environment import ActuatorEnv
     from svsa.runs.records.catalogue.runs import Catalogue
     from svsa.runs.records.verdict import Tolerance
     from svsa.runs.result.arm import ArmResult
@@ -79,7 +79,7 @@ _LATE = {
     "PayloadAdaptation": "svsa.control.arm_payload",
     "simulate_arm": "svsa.runs.result.simulate_arm",
     **dict.fromkeys(("TipEllipse", "TipMove"), "svsa.simulation.arm.tip_reference"),
-    "ActuatorEnv": "svsa.runs.environment",
+    "ActuatorEnv": "svsa.runs.execution.environment",
     "design": "svsa.analysis.design",
     "falsify": "svsa.evaluation.falsifier",
     "connect": "svsa.client",

@@ -97,7 +97,7 @@ def reproduce(
 ) -> None:
     """Reproduce the paper's figures 4A, 4B, 5 (simulated) or 6A, 6B, 7 (emulated bench)."""
     from svsa.evaluation.reproduction import reproduce as run_figures
-    from svsa.runs.paper import FIGURES
+    from svsa.runs.definition.paper import FIGURES
 
     if not as_json:
         require_extra("plot")
@@ -256,7 +256,7 @@ def prepare(
     from svsa.control.installed import LawError, list_law_names
     from svsa.control.law_names import AnyLaw
     from svsa.numerics.exponential import exp
-    from svsa.runs.experiment import build_actuator_experiment
+    from svsa.runs.definition.experiment import build_actuator_experiment
     from svsa.runs.result.simulate import simulate
     from svsa.runs.result.simulate_arm import simulate_arm
     from svsa.simulation.loop.loop import advance

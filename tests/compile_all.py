@@ -23,8 +23,8 @@ from svsa.evaluation.ranking.test_set import build_test_trial
 from svsa.evaluation.timing.scipy_comparison import compare_with_scipy
 from svsa.evaluation.tuning.judge import find_noise_limit
 from svsa.hardware.emulator.experiment import LockstepBench
-from svsa.runs.batch import find_alike, run_configurations, run_group
-from svsa.runs.paper import FIGURES
+from svsa.runs.definition.paper import FIGURES
+from svsa.runs.execution.batch import find_alike, run_configurations, run_group
 from svsa.simulation.plant.loads.constant import ConstantLoad
 from svsa_server.commands.compiling import OTHER
 from tests.analysis.identification.excited_run import build_configuration, build_run, play

@@ -15,7 +15,7 @@ import svsa
 from svsa.errors import ParameterError, Violation
 from svsa.inputs.data_folder import find_data_folder
 from svsa.inputs.extras import require_extra
-from svsa.runs.design_file import load_prototype, read_design
+from svsa.runs.definition.design_file import load_prototype, read_design
 from svsa.runs.records.catalogue.runs import Catalogue
 from svsa.runs.session.session import Session
 from svsa.teaching.course.file import read_course

@@ -12,12 +12,12 @@ from svsa.client.session import RemoteSession, dump_lane
 from svsa.control.law_names import AnyLaw
 from svsa.errors import FaultError, ParameterError, Violation
 from svsa.inputs.checked import check_number
-from svsa.runs.change import Change
-from svsa.runs.configuration import Configuration
-from svsa.runs.paper import DURATION_S, Figure, get_figure, get_simulated_figure
+from svsa.runs.definition.change import Change
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.definition.paper import DURATION_S, Figure, get_figure, get_simulated_figure
+from svsa.runs.definition.shorthand import LawChoice, Settings, change_configuration, read_setting
 from svsa.runs.result.result import Result
 from svsa.runs.result.simulate import MAX_TICKS
-from svsa.runs.shorthand import LawChoice, Settings, change_configuration, read_setting
 
 SHARED = "lab"
 _SET_ALONE = ("position", "stiffness", "gains", "observer", "actuator", "nominal", "effects")

@@ -7,7 +7,7 @@ from typing import Any
 from pydantic import TypeAdapter
 
 from svsa.client.connection import Remote, SessionConnection
-from svsa.runs.shorthand import Part, read_load
+from svsa.runs.definition.shorthand import Part, read_load
 from svsa.simulation.plant.loads import Load
 
 _LOAD: TypeAdapter[Load] = TypeAdapter(Load)

@@ -19,9 +19,8 @@ from svsa.control.gains import Gains
 from svsa.control.law_names import AnyLaw
 from svsa.control.observers.disturbance import ObserverBandwidth
 from svsa.inputs.nearest import suggest
-from svsa.runs.configuration import Lane
-from svsa.runs.result.channels import ChannelName
-from svsa.runs.shorthand import (
+from svsa.runs.definition.configuration import Lane
+from svsa.runs.definition.shorthand import (
     GivenActuator,
     GivenEffects,
     GivenGains,
@@ -33,6 +32,7 @@ from svsa.runs.shorthand import (
     read_lane,
     read_setting,
 )
+from svsa.runs.result.channels import ChannelName
 from svsa.simulation.plant.effects import Effects
 from svsa.simulation.reference.kinds import PositionReference, StiffnessReference
 

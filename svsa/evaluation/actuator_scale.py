@@ -29,8 +29,8 @@ from svsa.actuators.reach import find_only_stiffness, find_stiffness_range
 from svsa.evaluation.scenario import Scenario
 from svsa.evaluation.tuning.search_space import Axis
 from svsa.inputs.checked import Checked
-from svsa.runs.configuration import Configuration
-from svsa.runs.shorthand import read_mechanism
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.definition.shorthand import read_mechanism
 from svsa.simulation.plant.effects import Effects
 from svsa.simulation.plant.loads import Load
 from svsa.simulation.plant.loads.mass import MassLoad

@@ -111,7 +111,7 @@ def measure_collision(
     """
     # Imported here: every command of `svsa` imports this file.
     from svsa.actuators.arm.parameters import RODS
-    from svsa.runs.arm.experiment import build_arm_experiment
+    from svsa.runs.definition.arm_experiment import build_arm_experiment
     from svsa.runs.result.simulate_arm import simulate_arm
 
     move, wall = build_collision(direction, wall_n_per_m, damping_ns_per_m)

@@ -9,8 +9,8 @@ from pydantic import AfterValidator
 from svsa.actuators.domain import INSIDE
 from svsa.actuators.faults import FAULT_CODES
 from svsa.errors import ParameterError, Violation
-from svsa.runs.blocks import build_blocks, compute_start_ratio
-from svsa.runs.metrics import derive_metrics
+from svsa.runs.execution.blocks import build_blocks, compute_start_ratio
+from svsa.runs.metrics.metrics import derive_metrics
 from svsa.runs.result.result import Result
 from svsa.simulation.loop.tally import STEADY_STATE_S, SUMMARY, Tally
 from svsa.simulation.loop.tally_rows import sum_up
@@ -38,7 +38,7 @@ QUANTITIES = {
     "limit_share": ("1", "Share of ticks with a motor at its torque limit"),
 }  # fmt: skip
 """Each metric with its unit and meaning; from `measure_from_s` to the end, or to the fault. Those
-of `svsa.runs.metrics.Metrics` have its names; recovery and steady-state errors are NaN if
+of `svsa.runs.metrics.metrics.Metrics` have its names; recovery and steady-state errors are NaN if
 undefined. Torques are actual torques, work is mechanical, and a limit counts as reached within 0.1
 %.
 """

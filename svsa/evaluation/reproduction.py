@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 from svsa.control.law_names import AnyLaw
 from svsa.errors import FaultError
 from svsa.inputs.extras import require_extra
-from svsa.runs.paper import (
+from svsa.runs.definition.paper import (
     BEFORE_S,
     BENCH_FIGURES,
     DURATION_S,

@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.figure import Figure as Picture
 
 from svsa.evaluation.reproduction import Reproduction
-from svsa.runs.paper import LOAD_TIME_S, get_figure
+from svsa.runs.definition.paper import LOAD_TIME_S, get_figure
 from svsa.runs.result.law_style import REFERENCE_STYLE, style_law
 from svsa.runs.result.plot import label_axes
 

@@ -2,8 +2,8 @@
 
 from typing import NamedTuple
 
-from svsa.runs.configuration import Configuration
-from svsa.runs.paper import FIGURES, LOAD_TIME_S
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.definition.paper import FIGURES, LOAD_TIME_S
 from svsa.simulation.plant.effects import RIG, Effects
 from svsa.simulation.plant.loads import Load
 from svsa.simulation.reference.kinds import PositionReference, StiffnessReference

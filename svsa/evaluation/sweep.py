@@ -12,14 +12,14 @@ from svsa.errors import ParameterError, Violation
 from svsa.evaluation.studies.setting import change_settings
 from svsa.inputs.checked import Checked, check_number
 from svsa.inputs.extras import require_extra
-from svsa.runs.configuration import Configuration, Design
-from svsa.runs.experiment import build_experiment
-from svsa.runs.metrics import Metrics
-from svsa.runs.paper import DURATION_S
+from svsa.runs.definition.configuration import Configuration, Design
+from svsa.runs.definition.experiment import build_experiment
+from svsa.runs.definition.paper import DURATION_S
+from svsa.runs.definition.run_checks import check_laws
+from svsa.runs.definition.shorthand import LawChoice, Settings
+from svsa.runs.metrics.metrics import Metrics
 from svsa.runs.result.progress import Follow, follow_progress
 from svsa.runs.result.simulate import simulate
-from svsa.runs.run_checks import check_laws
-from svsa.runs.shorthand import LawChoice, Settings
 from svsa.simulation.loop.stepwise import Controller
 
 if TYPE_CHECKING:

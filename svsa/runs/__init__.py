@@ -1,1 +1,1 @@
-"""Runs as values: configuration, commands, timeline, metrics, records and results."""
+"""Runs: definition, timeline, execution, metrics, sessions, records and results."""

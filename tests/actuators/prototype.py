@@ -11,7 +11,7 @@ from svsa.actuators.dynamics import build_actuator
 from svsa.actuators.lever import compute_zero_stiffness_deflection
 from svsa.actuators.signals import CHANNELS, State, Torque
 from svsa.control.laws.feedback_linearization import build_gains
-from svsa.runs.design_file import load_prototype
+from svsa.runs.definition.design_file import load_prototype
 from svsa.simulation.plant.effects import build_effect_constants
 from svsa.simulation.plant.integration import integrate_period
 from svsa.simulation.plant.load_table import build_load_table

@@ -23,7 +23,7 @@ from svsa.actuators.domain import (
 from svsa.actuators.lever import compute_zero_stiffness_deflection
 from svsa.actuators.linearization import compute_linearization
 from svsa.actuators.signals import CHANNELS, State
-from svsa.runs.run import Run
+from svsa.runs.execution.run import Run
 
 from .prototype import DESIGN, NOMINAL, PLANT, build_state, drawn, lever_ratios, move_plant, springs
 

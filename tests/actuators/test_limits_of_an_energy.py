@@ -14,7 +14,7 @@ from svsa.actuators.installed import get_mechanism
 from svsa.actuators.reach import find_stiffness_range
 from svsa.actuators.signals import CHANNEL_INDEX, Torque
 from svsa.control.limits import are_at_limit, limit_motors, limit_torque
-from svsa.runs.run import Run
+from svsa.runs.execution.run import Run
 from tests.actuators.members import build_wrong, follow
 
 QBMOVE = get_mechanism("qbmove")

@@ -13,8 +13,8 @@ from svsa.actuators.installed import get_mechanism
 from svsa.actuators.signals import CHANNEL_INDEX
 from svsa.analysis.design.linear_model import linearize
 from svsa.control.installed import list_law_names
-from svsa.runs.batch import RunSet
-from svsa.runs.experiment import build_actuator_experiment
+from svsa.runs.definition.experiment import build_actuator_experiment
+from svsa.runs.execution.batch import RunSet
 from tests.actuators.members import NAMES, STIFFNESS, follow
 from tests.actuators.own_actuator import install_own_actuator
 from tests.docs.pages import ROOT

@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from svsa.runs.metrics import Metrics
+from svsa.runs.metrics.metrics import Metrics
 from svsa.runs.records.catalogue.database import Database
 from svsa.runs.records.catalogue.entry import RunEntry
 from svsa.runs.records.catalogue.runs import Catalogue

@@ -17,7 +17,7 @@ from pathlib import Path
 
 from svsa.hardware.emulator.experiment import EMULATOR_BENCH
 from svsa.hardware.emulator.launch import start_emulator
-from svsa.runs.paper import CABLE_PULL, get_figure
+from svsa.runs.definition.paper import CABLE_PULL, get_figure
 from tests.benchmarks.sessions import watch
 from tests.lab import Lab, run_lab
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from playwright.sync_api import Page, expect
 
-from svsa.runs.events import Event
+from svsa.runs.timeline.events import Event
 from tests.browser.test_replay import expect_theme, open_file
 from tests.scene.replay_page import CHANNELS, make_run, write_page
 

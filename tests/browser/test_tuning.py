@@ -8,7 +8,7 @@ import httpx
 import pytest
 from playwright.sync_api import Locator, Page, Response, expect
 
-from svsa.runs.design_file import parse_design
+from svsa.runs.definition.design_file import parse_design
 from tests.browser.settled import get_box, resize, until
 from tests.browser.test_page import WORKER_MS, go_to_page, open_page
 from tests.lab import PATIENCE_S, Lab

@@ -13,7 +13,7 @@ import svsa
 from svsa.actuators.arm.parameters import RODS
 from svsa.actuators.signals import CHANNEL_NAMES
 from svsa.client.session import RemoteSession
-from svsa.runs.command import Set, build_command
+from svsa.runs.definition.command import Set, build_command
 from svsa.runs.session.simulated import SimulatedSession
 from svsa.simulation.plant.effects.noise import SensorNoise
 from svsa_server.routes.runs.origins import _build_origin

@@ -17,8 +17,8 @@ from svsa.control.laws.feedback_linearization import (
 from svsa.control.laws.ndobc import compute_disturbance_gain, compute_ndobc
 from svsa.control.limits import limit_torque
 from svsa.control.observers.disturbance import compute_shares, update_disturbance_estimate
-from svsa.runs.command import Set
-from svsa.runs.run import Run
+from svsa.runs.definition.command import Set
+from svsa.runs.execution.run import Run
 from svsa.simulation.reference.kinds.sine import compute_sine
 from tests.actuators.prototype import DESIGN, NO_LOADS, K, integrate_ideal, move_plant, record
 from tests.exhaustive import exhaust

@@ -12,8 +12,8 @@ import svsa
 from svsa.actuators.faults import FAULT_CODES
 from svsa.actuators.signals import CHANNEL_INDEX, State
 from svsa.control.installed import list_law_names
-from svsa.runs.batch import run_configurations
-from svsa.runs.command import ApplyLoad
+from svsa.runs.definition.command import ApplyLoad
+from svsa.runs.execution.batch import run_configurations
 from svsa.runs.records.recorder import Recorder
 from svsa.runs.session.simulated import SimulatedSession
 from tests.exhaustive import exhaust

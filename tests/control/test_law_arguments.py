@@ -18,9 +18,9 @@ from svsa.control.observers.state import predict_state
 from svsa.numerics.compilation import compiled
 from svsa.numerics.packed import pack
 from svsa.numerics.simd.choice import choose
-from svsa.runs.batch import build_run_batch, run_configurations
-from svsa.runs.blocks import compute_start_ratio
-from svsa.runs.run import Run
+from svsa.runs.execution.batch import build_run_batch, run_configurations
+from svsa.runs.execution.blocks import compute_start_ratio
+from svsa.runs.execution.run import Run
 from svsa.simulation.loop.lane import AT_REST
 from svsa.simulation.loop.measured import (
     Actuation,

@@ -16,12 +16,12 @@ from svsa.control import installed
 from svsa.control.installed import LawError, get_law, list_law_names
 from svsa.control.law import Law
 from svsa.numerics.compilation import compiled, watch_compilation
-from svsa.runs.command import Set, build_command
-from svsa.runs.controllers import list_controllers, name_controllers
+from svsa.runs.definition.command import Set, build_command
+from svsa.runs.execution.replay import replay
+from svsa.runs.execution.run import Run
 from svsa.runs.records.wording import describe_law
-from svsa.runs.replay import replay
-from svsa.runs.run import Run
 from svsa.runs.session.simulated import SimulatedSession
+from svsa.runs.timeline.controllers import list_controllers, name_controllers
 from svsa.simulation.loop.loop import advance as advance_lane
 from tests.runs.session.sessions import PULSE, advance, build_configuration, read_samples
 

@@ -11,7 +11,7 @@ from svsa.actuators.signals import CHANNELS, Disturbance, Torque
 from svsa.control.guard import guard_deflection, guard_lever
 from svsa.control.laws.ndobc_w import Memory
 from svsa.numerics.packed import pack
-from svsa.runs.run import Run
+from svsa.runs.execution.run import Run
 from tests.actuators.prototype import NOMINAL, build_state
 
 W = Disturbance(0.4, -0.2, 0.1)

@@ -3,7 +3,7 @@
 import numpy as np
 
 import svsa
-from svsa.runs.run import Run
+from svsa.runs.execution.run import Run
 from tests.runs.session.sessions import PULSE, advance, build_configuration
 
 TICKS = 300

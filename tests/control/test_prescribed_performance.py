@@ -7,7 +7,7 @@ import svsa
 from svsa.actuators.signals import CHANNELS
 from svsa.control.installed import get_law
 from svsa.control.laws.prescribed_performance import EDGE, push_inside
-from svsa.runs.run import Run
+from svsa.runs.execution.run import Run
 
 NAME = "prescribed_performance"
 FUNNELS = get_law(NAME).parameters()

@@ -28,7 +28,7 @@ from svsa.hardware.realtime.configuration import (
 from svsa.hardware.realtime.loop import BenchLoop
 from svsa.hardware.realtime.memory import SampleArray
 from svsa.hardware.safety.machine import BenchStatus, Conditions, Machine
-from svsa.runs.paper import get_figure
+from svsa.runs.definition.paper import get_figure
 from tests.hardware.wired_bench import EMULATOR_BENCH
 
 AT_REST = State(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)

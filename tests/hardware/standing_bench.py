@@ -15,7 +15,7 @@ from svsa.errors import StateError
 from svsa.hardware.bench.homing import STEPS
 from svsa.hardware.safety.machine import BenchStatus
 from svsa.hardware.session.session import BenchSession
-from svsa.runs.paper import get_figure
+from svsa.runs.definition.paper import get_figure
 from svsa.simulation.reference.kinds.constant import ConstantPosition
 
 WAKE_S = 1.0 / 60.0

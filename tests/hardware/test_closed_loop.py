@@ -8,8 +8,8 @@ from svsa.control.installed import get_law, list_law_names
 from svsa.hardware.emulator.experiment import LockstepBench, connect_bench
 from svsa.hardware.emulator.launch import start_emulator
 from svsa.hardware.safety.machine import BenchStatus
-from svsa.runs.command import Set
-from svsa.runs.paper import FIGURES, LOAD_TIME_S, get_figure
+from svsa.runs.definition.command import Set
+from svsa.runs.definition.paper import FIGURES, LOAD_TIME_S, get_figure
 from svsa.simulation.plant.loads.constant import ConstantLoad
 from svsa.simulation.reference.kinds.constant import ConstantPosition
 from tests.exhaustive import exhaust

@@ -31,9 +31,9 @@ from svsa.hardware.realtime.prepared_laws import (
     compute_constants,
 )
 from svsa.hardware.safety.machine import BenchStatus
-from svsa.runs.experiment import build_actuator_experiment, build_default_load
-from svsa.runs.paper import get_figure
-from svsa.runs.run import Run
+from svsa.runs.definition.experiment import build_actuator_experiment, build_default_load
+from svsa.runs.definition.paper import get_figure
+from svsa.runs.execution.run import Run
 from tests.hardware.emulator.in_process_emulator import start_in_process
 
 OTHERS = [

@@ -5,7 +5,7 @@ import pytest
 from svsa.hardware.emulator.experiment import LockstepBench
 from svsa.hardware.emulator.launch import start_emulator
 from svsa.hardware.safety.machine import BenchStatus
-from svsa.runs.paper import get_figure
+from svsa.runs.definition.paper import get_figure
 from svsa.simulation.plant.loads.constant import ConstantLoad
 
 

@@ -6,7 +6,7 @@ from typing import Any
 from svsa.hardware.emulator.experiment import LockstepBench, connect_bench
 from svsa.hardware.emulator.launch import RunningEmulator
 from svsa.hardware.safety.machine import BenchStatus
-from svsa.runs.paper import get_figure
+from svsa.runs.definition.paper import get_figure
 from tests.hardware.emulator.in_process_emulator import InProcessEmulator
 
 FIGURE = get_figure("4a").build_configuration(load=False)

@@ -53,9 +53,9 @@ def test_files_without_equations_recompile_nothing() -> None:
     named = {
         "cli.py",
         "runs/session/journal.py",
-        "runs/run.py",
-        "runs/metrics.py",
-        "runs/command.py",
+        "runs/execution/run.py",
+        "runs/metrics/metrics.py",
+        "runs/definition/command.py",
     }
     assert all((LIBRARY / name).exists() for name in named)
     assert not named & find_names("simulation/loop/loop.py")

@@ -12,11 +12,11 @@ import pytest
 
 import svsa
 from svsa.control.installed import list_law_names
-from svsa.runs.command import build_command
-from svsa.runs.events import list_events
+from svsa.runs.definition.command import build_command
 from svsa.runs.records.measured_window import trace_record
 from svsa.runs.records.reader import open_record
 from svsa.runs.records.resimulation import compare_with_simulation
+from svsa.runs.timeline.events import list_events
 from svsa_server.runs.lanes import list_record_segments, name_lanes
 
 EXAMPLE = Path(__file__).parents[1] / "data" / "example_law"

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from svsa.actuators.signals import CHANNEL_NAMES
-from svsa.runs.events import Event
+from svsa.runs.timeline.events import Event
 from svsa_scene.replay import build_replay_html
 
 PERIOD_S = 0.001

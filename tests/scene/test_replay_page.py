@@ -15,9 +15,9 @@ import pytest
 from svsa.actuators.arm.parameters import RODS
 from svsa.actuators.installed import get_mechanism
 from svsa.errors import ParameterError
-from svsa.runs.events import Event
-from svsa.runs.metrics import compute_metrics
+from svsa.runs.metrics.metrics import compute_metrics
 from svsa.runs.records.measured_window import MeasuredWindow
+from svsa.runs.timeline.events import Event
 from svsa_scene.arm_pose import TipLoad, Wall
 from svsa_scene.pose import LaneSegment
 from svsa_scene.replay_curves import decimate, pack_curves

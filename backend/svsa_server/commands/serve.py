@@ -25,7 +25,7 @@ from svsa.hardware.realtime.configuration import read_bench_design
 from svsa.hardware.safety.heartbeat import check_shared_memory
 from svsa.inputs.data_folder import DATA_VARIABLE, find_data_folder
 from svsa.inputs.file_lock import try_lock
-from svsa.runs.design_file import read_design
+from svsa.runs.definition.design_file import read_design
 from svsa.teaching.course.file import read_course
 from svsa_server.access.admission import Admission, raise_descriptor_limit
 from svsa_server.access.class_keys import FILE, ClassKeys, ShownOnce

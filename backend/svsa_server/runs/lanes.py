@@ -9,7 +9,7 @@ from svsa.control.installed import get_law, list_law_names
 from svsa.runs.records.reader import Record
 from svsa.runs.session.journal import KEPT_S
 from svsa.runs.session.session import Session
-from svsa.runs.timeline import Segment, Timeline, Window
+from svsa.runs.timeline.timeline import Segment, Timeline, Window
 from svsa_server.schemas.runs.lane import EndedWindowState, SegmentState, WindowState
 
 MAX_STRETCHES = 200

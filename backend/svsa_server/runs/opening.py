@@ -5,8 +5,8 @@ from typing import Any, NamedTuple
 
 from svsa.actuators.parameters import get_mechanism_name
 from svsa.actuators.reach import find_only_stiffness
-from svsa.runs.arm.experiment import ARMS
-from svsa.runs.configuration import Configuration, Design
+from svsa.runs.definition.arm_experiment import ARMS
+from svsa.runs.definition.configuration import Configuration, Design
 from svsa_server.schemas.lab.arm import FromArm
 from svsa_server.schemas.lab.opening import FromActuator, FromFigure
 

@@ -4,14 +4,14 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from svsa.runs.command import Command
-from svsa.runs.configuration import Configuration
-from svsa.runs.events import list_events
-from svsa.runs.loads import list_loads
+from svsa.runs.definition.command import Command
+from svsa.runs.definition.configuration import Configuration
 from svsa.runs.records.measured_window import find_measured_window, trace_record
 from svsa.runs.records.reader import Record
 from svsa.runs.records.resimulation import read_origin
 from svsa.runs.records.settings import describe_settings
+from svsa.runs.timeline.events import list_events
+from svsa.runs.timeline.loads import list_loads
 from svsa_scene.pose import LaneSegment
 from svsa_scene.replay import build_replay_html
 from svsa_scene.replay_scenes import ReplayArm

@@ -5,9 +5,9 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from svsa.runs.command import Command
-from svsa.runs.configuration import Configuration
-from svsa.runs.loads import list_load_changes
+from svsa.runs.definition.command import Command
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.timeline.loads import list_load_changes
 from svsa.simulation.plant.loads import Load
 from svsa.simulation.plant.loads.tip import DAMPING, FORCE_X, FORCE_Y, AnyTipLoad
 from svsa.simulation.plant.loads.tip import Wall as WallLoad

@@ -3,8 +3,8 @@
 import numpy as np
 
 from svsa.actuators.signals import CHANNELS
-from svsa.runs.events import list_events
 from svsa.runs.records.measured_window import MeasuredWindow
+from svsa.runs.timeline.events import list_events
 from svsa.teaching.leaderboard.board import Board, Entry
 from svsa.teaching.leaderboard.worst_run import replay_worst
 from svsa_scene.replay import build_replay_html

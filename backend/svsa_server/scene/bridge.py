@@ -6,7 +6,7 @@ import io
 import viser
 from viser.infra import WebsockClientConnection
 
-from svsa.runs.configuration import Configuration
+from svsa.runs.definition.configuration import Configuration
 from svsa_scene import ActuatorPose
 from svsa_scene.arm import ArmScene
 from svsa_scene.arm_pose import ArmPose

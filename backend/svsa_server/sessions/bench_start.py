@@ -6,8 +6,8 @@ from rich.console import Console
 
 from svsa.errors import StateError, SvsaError
 from svsa.hardware.session.session import BenchSession
-from svsa.runs.command import Set, is_held
-from svsa.runs.configuration import Configuration
+from svsa.runs.definition.command import Set, is_held
+from svsa.runs.definition.configuration import Configuration
 from svsa.runs.session.session import Session
 from svsa.teaching.course.steps import Experiment
 from svsa_server.sessions.waiting import run_waiting

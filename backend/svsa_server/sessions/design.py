@@ -25,7 +25,7 @@ from svsa.analysis.design.sampled_loop import (
 )
 from svsa.analysis.design.stability import Stability, assess
 from svsa.control.installed import get_law
-from svsa.runs.configuration import Configuration
+from svsa.runs.definition.configuration import Configuration
 from svsa_server.jobs.heavy_work import HeavyWork
 from svsa_server.schemas.lab.stability import (
     FrequencyResponseState,

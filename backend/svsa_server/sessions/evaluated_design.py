@@ -2,8 +2,8 @@
 
 from svsa.actuators.signals import CHANNEL_INDEX
 from svsa.control.gains import UncheckedGains
-from svsa.runs.arm.experiment import split_joints
-from svsa.runs.configuration import Configuration
+from svsa.runs.definition.arm_experiment import split_joints
+from svsa.runs.definition.configuration import Configuration
 from svsa.runs.session.session import Session
 from svsa.simulation.reference.kinds import compute_start_value
 from svsa_server.schemas.lab.stability import DesignRequest

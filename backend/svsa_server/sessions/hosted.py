@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
 
 from svsa.errors import StateError
-from svsa.runs.configuration import Configuration
+from svsa.runs.definition.configuration import Configuration
 from svsa.runs.session.session import Session
 from svsa_server.access.audit import AuditLog
 from svsa_server.leases.lease import ControlLease, EndedLease, Holder

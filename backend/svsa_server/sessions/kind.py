@@ -3,7 +3,7 @@
 from svsa.actuators.installed import find_mechanism
 from svsa.actuators.parameters import SVSA
 from svsa.errors import StateError
-from svsa.runs.configuration import Configuration
+from svsa.runs.definition.configuration import Configuration
 from svsa.runs.session.session import Session
 
 

@@ -15,9 +15,9 @@ from svsa.hardware.description.file import read_bench
 from svsa.hardware.emulator.control import EmulatorControl, EmulatorError
 from svsa.hardware.realtime.configuration import build_first_experiment
 from svsa.hardware.session.session import BenchSession
-from svsa.runs.command import Command
-from svsa.runs.configuration import Configuration, Design
-from svsa.runs.paper import get_figure
+from svsa.runs.definition.command import Command
+from svsa.runs.definition.configuration import Configuration, Design
+from svsa.runs.definition.paper import get_figure
 from svsa.runs.session.session import Operator, Session
 from svsa.runs.session.simulated import SimulatedSession
 from svsa.simulation.plant.loads import Load

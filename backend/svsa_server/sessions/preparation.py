@@ -15,10 +15,10 @@ from typing import NamedTuple
 from greenlet import getcurrent
 
 from svsa.actuators.faults import FAULT_CODES
-from svsa.runs.arm.run import build_run
-from svsa.runs.command import Command, fold
-from svsa.runs.configuration import Configuration
-from svsa.runs.fault import build_fault
+from svsa.runs.definition.command import Command, fold
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.execution.arm_run import build_run
+from svsa.runs.execution.fault import build_fault
 from svsa.runs.session.journal import Journal
 from svsa_server.sessions.waiting import WaitingCall, pause
 

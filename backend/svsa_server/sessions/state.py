@@ -9,11 +9,11 @@ from svsa.actuators.installed import find_mechanism
 from svsa.actuators.signals import CHANNEL_NAMES
 from svsa.control.gains import Gains
 from svsa.hardware.session.session import BenchSession
-from svsa.runs.arm.run import ArmRun
-from svsa.runs.configuration import ArmSetup, Configuration
-from svsa.runs.metrics import Metrics
+from svsa.runs.definition.configuration import ArmSetup, Configuration
+from svsa.runs.execution.arm_run import ArmRun
+from svsa.runs.execution.run import Run
+from svsa.runs.metrics.metrics import Metrics
 from svsa.runs.records.recorder import Recorder
-from svsa.runs.run import Run
 from svsa.runs.session.journal import Journal
 from svsa.runs.session.session import Session
 from svsa.simulation.plant.effects import find_preset

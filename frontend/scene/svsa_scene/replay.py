@@ -18,8 +18,8 @@ import numpy.typing as npt
 
 from svsa.actuators.parameters import MechanismParameters
 from svsa.errors import ParameterError, SvsaError, Violation
-from svsa.runs.events import Event
 from svsa.runs.records.measured_window import MeasuredWindow
+from svsa.runs.timeline.events import Event
 from svsa_scene.pose import POSE_CHANNELS, LaneSegment
 from svsa_scene.replay_curves import compute_metrics, pack_curves
 from svsa_scene.replay_motion import record_motion

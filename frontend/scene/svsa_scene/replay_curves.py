@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from svsa.actuators.signals import PLOTTED
-from svsa.runs.metrics import MEASURED, RunningMetrics
+from svsa.runs.metrics.metrics import MEASURED, RunningMetrics
 from svsa.runs.records.measured_window import MeasuredWindow, summarize
 from svsa_scene.replay_packing import ArrayPack
 
@@ -84,7 +84,7 @@ def compute_metrics(
     samples: Array, channels: Sequence[str], period_s: float, window: MeasuredWindow
 ) -> list[dict[str, float | None]]:
     """For each lane its metrics over these samples of a window, in SI, as
-    `svsa.runs.metrics.Metrics`; none without the channels for it, or without numbers.
+    `svsa.runs.metrics.metrics.Metrics`; none without the channels for it, or without numbers.
     """
     if not set(MEASURED) <= set(channels):
         return []

@@ -24,7 +24,7 @@ from svsa.actuators.signals import CHANNEL_INDEX, Torque
 from svsa.control.limits import are_at_limit
 from svsa.errors import ParameterError, Violation
 from svsa.inputs.checked import Checked, Number, quantity
-from svsa.runs.change import Change
+from svsa.runs.definition.change import Change
 from svsa.runs.result.simulate import simulate
 from svsa.simulation.plant.loads.series import SeriesLoad
 from svsa.simulation.reference.kinds.constant import ConstantPosition

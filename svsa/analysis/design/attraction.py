@@ -12,8 +12,8 @@ import numpy as np
 
 from svsa.actuators.signals import CHANNEL_INDEX, CHANNELS, State
 from svsa.control.installed import get_law
-from svsa.runs.configuration import Configuration
-from svsa.runs.run import Run
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.execution.run import Run
 from svsa.simulation.loop.lane import LaneState, build_lane_state
 from svsa.simulation.loop.loop import advance
 from svsa.simulation.loop.slices import advance_in_slices

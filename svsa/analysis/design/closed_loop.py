@@ -22,8 +22,8 @@ from svsa.analysis.design.sampled_loop import find_rest
 from svsa.control.call import build_call
 from svsa.control.installed import get_law
 from svsa.control.law import Setting
-from svsa.runs.configuration import Configuration
-from svsa.runs.run import Run
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.execution.run import Run
 from svsa.simulation.loop.loop import decide
 from svsa.simulation.plant.effects import IDEAL
 from svsa.simulation.plant.sensors import build_positions

@@ -13,7 +13,7 @@ from svsa.analysis.design.report import Report
 from svsa.analysis.design.sampled_loop import compute_disturbance_response, find_fastest_observer
 from svsa.control.gains import Gains
 from svsa.control.installed import get_law
-from svsa.runs.configuration import Configuration
+from svsa.runs.definition.configuration import Configuration
 from svsa.simulation.plant.effects import IDEAL, RIG
 
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")

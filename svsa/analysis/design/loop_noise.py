@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from svsa.analysis.design.sampled_loop import TORQUES, linearize_tick
-from svsa.runs.configuration import Configuration
+from svsa.runs.definition.configuration import Configuration
 from svsa.simulation.plant.effects import RIG, Effects, build_effect_constants
 
 

@@ -22,7 +22,7 @@ from svsa.actuators.lever import compute_lever_ratio_for_stiffness
 from svsa.analysis.design.linear_model import linearize_at
 from svsa.analysis.design.robustness import PARAMETERS, find_end
 from svsa.analysis.design.sampled_loop import SampledLoop, compute_radius, linearize_tick
-from svsa.runs.configuration import Configuration
+from svsa.runs.definition.configuration import Configuration
 
 JOINT = (
     "link_inertia_kg_m2",

@@ -15,9 +15,9 @@ from svsa.analysis.design.steady_error import (
     find_steady_error,
 )
 from svsa.control.installed import get_law, get_title, has_own_parameters
-from svsa.runs.command import Set
-from svsa.runs.configuration import Configuration
-from svsa.runs.run import Run
+from svsa.runs.definition.command import Set
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.execution.run import Run
 from svsa.simulation.plant.effects import Effects
 from svsa.simulation.plant.loads.paper import PAPER_TORQUE_NM, PaperLoad
 from svsa.simulation.reference.kinds.constant import ConstantPosition

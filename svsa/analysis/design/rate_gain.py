@@ -14,8 +14,8 @@ from svsa.actuators.signals import CHANNEL_INDEX, CHANNELS
 from svsa.analysis.design.closed_loop import ClosedLoop
 from svsa.control.installed import get_law
 from svsa.control.laws.feedback_linearization import build_gains
-from svsa.runs.configuration import Configuration
-from svsa.runs.run import Run
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.execution.run import Run
 from svsa.simulation.plant.effects import IDEAL
 from svsa.simulation.plant.loads.series import SeriesLoad
 from svsa.simulation.reference.kinds.constant import ConstantPosition, ConstantStiffness

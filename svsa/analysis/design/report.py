@@ -20,8 +20,8 @@ from svsa.analysis.design.stability import Stability, assess
 from svsa.control.gains import Gains
 from svsa.control.installed import get_law
 from svsa.control.observers.disturbance import ObserverBandwidth
-from svsa.runs.configuration import Configuration
-from svsa.runs.design_file import load_prototype, read_design
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.definition.design_file import load_prototype, read_design
 from svsa.simulation.plant.effects import IDEAL, RIG
 from svsa.simulation.reference.kinds.constant import ConstantPosition, ConstantStiffness
 

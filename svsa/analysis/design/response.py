@@ -5,8 +5,8 @@ from typing import NamedTuple
 import numpy as np
 
 from svsa.actuators.signals import CHANNEL_INDEX, CHANNELS
-from svsa.runs.configuration import Configuration
-from svsa.runs.run import Run
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.execution.run import Run
 from svsa.simulation.plant.loads.paper import PaperLoad
 from svsa.simulation.reference.kinds.constant import ConstantPosition, ConstantStiffness
 

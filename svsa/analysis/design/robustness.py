@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from functools import partial
 
 from svsa.analysis.design.closed_loop import LawDerivatives, connect, linearize_law
-from svsa.runs.configuration import Configuration
+from svsa.runs.definition.configuration import Configuration
 
 PARAMETERS = {
     "link_inertia_kg_m2": "M",

@@ -12,8 +12,8 @@ from svsa.analysis.design.differences import differentiate, differentiate_both
 from svsa.control.call import build_call
 from svsa.control.installed import get_law
 from svsa.control.observers.disturbance import ObserverBandwidth
-from svsa.runs.configuration import Configuration
-from svsa.runs.run import Run
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.execution.run import Run
 from svsa.simulation.loop.lane import Inputs, LaneState
 from svsa.simulation.loop.loop import act, decide, move, observe
 from svsa.simulation.plant.effects.delay_samples import MAX_DELAY_SAMPLES

@@ -17,7 +17,7 @@ from svsa.analysis.design.robustness import StableRange, find_stable_ranges
 from svsa.analysis.design.sampled_loop import find_fastest_observer, linearize_tick
 from svsa.control.installed import get_title
 from svsa.errors import ParameterError, Violation
-from svsa.runs.configuration import Configuration
+from svsa.runs.definition.configuration import Configuration
 from svsa.simulation.plant.effects import IDEAL
 
 _SHORT_S = 1e-4

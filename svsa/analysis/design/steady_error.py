@@ -16,8 +16,8 @@ from svsa.actuators.linearization import compute_linearization
 from svsa.actuators.signals import CHANNEL_INDEX, CHANNELS, Disturbance, State
 from svsa.control.laws.feedback_linearization import build_gains
 from svsa.control.laws.ndobc import compute_disturbance_gain
-from svsa.runs.configuration import Configuration
-from svsa.runs.run import Run
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.execution.run import Run
 from svsa.simulation.plant.loads.constant import ConstantLoad
 from svsa.simulation.reference.kinds.constant import ConstantPosition, ConstantStiffness
 

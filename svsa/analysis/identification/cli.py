@@ -44,7 +44,7 @@ def identify(
     (or _deg each), torque1_nm and torque2_nm, measured without a load in equal steps.
     """
     from svsa.analysis.identification.measured import identify as identify_measured
-    from svsa.runs.design_file import write_design
+    from svsa.runs.definition.design_file import write_design
     from svsa.runs.records.header import describe_newer
     from svsa.runs.result.recorded import find_record
 

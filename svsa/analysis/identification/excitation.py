@@ -9,7 +9,7 @@ period would have the same encoder counts, and their error would not average out
 
 from typing import Literal, NamedTuple
 
-from svsa.runs.command import Command, build_command
+from svsa.runs.definition.command import Command, build_command
 from svsa.simulation.reference.kinds import PositionReference, StiffnessReference
 from svsa.simulation.reference.kinds.constant import ConstantPosition, ConstantStiffness
 from svsa.simulation.reference.kinds.sine import SinePosition, SineStiffness

@@ -14,11 +14,11 @@ from svsa.actuators.lever import compute_lever_ratio
 from svsa.analysis.identification.kernel import UNLOADED, Setting, Torques, measure
 from svsa.errors import SvsaError
 from svsa.numerics.exponential import exp
-from svsa.runs.command import Command, fold
-from svsa.runs.configuration import Configuration
-from svsa.runs.loads import list_loads
+from svsa.runs.definition.command import Command, fold
+from svsa.runs.definition.configuration import Configuration
 from svsa.runs.records.reader import Record
 from svsa.runs.records.resimulation import read_origin
+from svsa.runs.timeline.loads import list_loads
 from svsa.simulation.plant.effects import NO_EFFECTS, build_effect_constants
 
 SEGMENT_S = 0.25

@@ -14,7 +14,7 @@ from svsa.evaluation.studies.setting import read_setting
 from svsa.evaluation.studies.study import FIGURE, build_base, check_measured, check_variation, scale
 from svsa.evaluation.studies.variation import DRAWN, Variation
 from svsa.inputs.checked import Checked, Number, quantity
-from svsa.runs.configuration import Configuration
+from svsa.runs.definition.configuration import Configuration
 from svsa.runs.records.former_words import SEARCHES, translate_fields
 
 Cost = Literal["fault", "peak", "recovery"]

@@ -13,7 +13,7 @@ from svsa.evaluation.falsifier.scenario import Attack, LoadScenario
 from svsa.evaluation.metrics import METRICS, RECOVERY
 from svsa.evaluation.studies.outcome import REFUSED, Success
 from svsa.evaluation.studies.work import measure_runs
-from svsa.runs.configuration import Configuration
+from svsa.runs.definition.configuration import Configuration
 
 METRIC: dict[Cost, str] = {"peak": "peak_position_error_rad", "recovery": RECOVERY}
 """Metric of each cost while no run ends in a fault; for a fault see `_compute_stress`."""

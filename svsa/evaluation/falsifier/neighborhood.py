@@ -11,7 +11,7 @@ from svsa.evaluation.falsifier.scenario import Attack
 from svsa.evaluation.falsifier.shrink import Place, list_places, replace_number
 from svsa.evaluation.studies.setting import read_setting
 from svsa.evaluation.studies.variation import LogUniform, Normal, Uniform
-from svsa.runs.configuration import Configuration
+from svsa.runs.definition.configuration import Configuration
 
 RUNS = 256
 WIDTH = 0.05

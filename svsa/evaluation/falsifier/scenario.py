@@ -11,8 +11,8 @@ from svsa.evaluation.statistics import Interval, estimate_share
 from svsa.evaluation.studies.setting import change_settings
 from svsa.evaluation.studies.study import FIGURE, build_base, check_measured
 from svsa.inputs.checked import Checked, Number, Whole, quantity
-from svsa.runs.configuration import MAX_LOADS, Configuration
-from svsa.runs.paper import DURATION_S
+from svsa.runs.definition.configuration import MAX_LOADS, Configuration
+from svsa.runs.definition.paper import DURATION_S
 from svsa.runs.records.former_words import SEARCHES, translate_fields
 from svsa.simulation.plant.loads import Load
 

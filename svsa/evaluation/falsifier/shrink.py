@@ -20,7 +20,7 @@ from svsa.evaluation.falsifier.description import (
 from svsa.evaluation.falsifier.measure import Measured, is_as_severe, measure_attacks
 from svsa.evaluation.falsifier.scenario import Attack
 from svsa.evaluation.studies.setting import read_setting
-from svsa.runs.configuration import Configuration
+from svsa.runs.definition.configuration import Configuration
 from svsa.simulation.plant.loads import Load
 
 PARTS = 16

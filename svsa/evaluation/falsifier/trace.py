@@ -7,9 +7,9 @@ import numpy as np
 
 from svsa.control.installed import check_installed
 from svsa.evaluation.falsifier.scenario import LoadScenario
-from svsa.runs.configuration import Configuration
-from svsa.runs.loads import follow_loads
+from svsa.runs.definition.configuration import Configuration
 from svsa.runs.result.simulate import simulate
+from svsa.runs.timeline.loads import follow_loads
 from svsa.simulation.plant.load_table import build_load_table, compute_load
 
 

@@ -14,7 +14,7 @@ from svsa.evaluation.progress_bar import show_progress
 from svsa.evaluation.ranking.bench_runs import BenchRuns, read_bench_runs
 from svsa.evaluation.ranking.bench_table import build_table, format_bench
 from svsa.evaluation.ranking.measure_bench import measure_on_bench
-from svsa.runs.paper import BENCH_FIGURES
+from svsa.runs.definition.paper import BENCH_FIGURES
 
 MIN_WIDTH = 132
 """Width of the terminal, in characters, that shows the table's numbers without wrapping."""

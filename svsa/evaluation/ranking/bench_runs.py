@@ -12,7 +12,7 @@ from svsa.errors import ParameterError, Violation
 from svsa.evaluation.campaign.results_file import read_results_file
 from svsa.evaluation.ranking.row import RecoveryErrors
 from svsa.inputs.checked import Checked, quantity
-from svsa.runs.paper import BENCH_FIGURES
+from svsa.runs.definition.paper import BENCH_FIGURES
 
 PUBLISHED = Path(__file__).parent / "bench_results.json"
 NUMBERS = tuple(RecoveryErrors.model_fields)

@@ -34,8 +34,8 @@ from svsa.evaluation.scenario import Scenario
 from svsa.evaluation.statistics import compute_quantiles, estimate_share
 from svsa.evaluation.trials import DURATION_S, FAMILIES, LOAD_S, REST_BEGIN_S, build_rest
 from svsa.inputs.extras import __version__
-from svsa.runs.batch import RunSet
-from svsa.runs.design_file import load_prototype
+from svsa.runs.definition.design_file import load_prototype
+from svsa.runs.execution.batch import RunSet
 from svsa.runs.result.simulate import simulate
 from svsa.simulation.plant.loads.load import MAX_TORQUE_NM
 

@@ -16,7 +16,7 @@ from svsa.evaluation.ranking.row import RecoveryErrors
 from svsa.evaluation.reproduction import compute_table_row
 from svsa.evaluation.workers import choose_start, start_workers
 from svsa.inputs.extras import __version__, require_extra
-from svsa.runs.paper import DURATION_S, get_figure
+from svsa.runs.definition.paper import DURATION_S, get_figure
 from svsa.runs.result.result import Result
 
 POLL_S = 0.2

@@ -15,7 +15,7 @@ from svsa.errors import ParameterError, Violation
 from svsa.evaluation.ranking.test_set import build_test_trial
 from svsa.evaluation.scenario import Scenario
 from svsa.evaluation.trials import FAMILIES
-from svsa.runs.paper import LOAD_TIME_S
+from svsa.runs.definition.paper import LOAD_TIME_S
 from svsa.simulation.plant.effects import IDEAL, RIG, Effects
 from svsa.simulation.plant.effects.current_lag import CurrentLag
 from svsa.simulation.plant.effects.friction import Friction

@@ -6,7 +6,7 @@ from svsa.control.installed import BASELINE
 from svsa.errors import Fault
 from svsa.evaluation.ranking.entry import DECLARED, Entry, build_entry, get_entry_title
 from svsa.evaluation.scenario import Scenario
-from svsa.runs.configuration import Configuration
+from svsa.runs.definition.configuration import Configuration
 from svsa.runs.result.simulate import simulate
 
 

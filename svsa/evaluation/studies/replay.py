@@ -12,7 +12,7 @@ from svsa.evaluation.studies.samples import build_configurations, draw
 from svsa.evaluation.studies.stored import StoredStudy, StudyError
 from svsa.evaluation.studies.work import ROW
 from svsa.inputs.checked import check_number
-from svsa.runs.configuration import Configuration
+from svsa.runs.definition.configuration import Configuration
 from svsa.runs.records.catalogue.entry import RunEntry
 from svsa.runs.records.catalogue.runs import Catalogue
 from svsa.runs.result.result import Result

@@ -10,7 +10,7 @@ import numpy as np
 from svsa.errors import ParameterError
 from svsa.evaluation.studies.setting import ACTUATOR, change_settings, read_setting
 from svsa.evaluation.studies.study import Study, scale
-from svsa.runs.configuration import Configuration
+from svsa.runs.definition.configuration import Configuration
 
 _WORDS = 4
 """Number of 64-bit words that Philox generates per counter."""

@@ -10,8 +10,8 @@ from svsa.control.gains import Gains
 from svsa.control.installed import check_installed
 from svsa.errors import ParameterError, Violation
 from svsa.inputs.checked import Checked
-from svsa.runs.configuration import Configuration, Lane
-from svsa.runs.shorthand import read_mechanism
+from svsa.runs.definition.configuration import Configuration, Lane
+from svsa.runs.definition.shorthand import read_mechanism
 from svsa.simulation.plant.effects import EVERY, IDEAL, RIG
 
 Step = str | int

@@ -6,7 +6,7 @@ from svsa.control.installed import get_title
 from svsa.evaluation.studies.setting import ACTUATOR, Step, parse_path, walk_to_setting
 from svsa.evaluation.studies.variation import Variation
 from svsa.inputs.checked import Checked, read_quantity
-from svsa.runs.configuration import Configuration
+from svsa.runs.definition.configuration import Configuration
 
 _SCALED = {
     "position_bandwidth_rad_per_s": "Bandwidth of the position error",

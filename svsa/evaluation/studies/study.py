@@ -13,8 +13,8 @@ from svsa.evaluation.studies.outcome import Success
 from svsa.evaluation.studies.setting import ACTUATOR, change_settings, read_setting
 from svsa.evaluation.studies.variation import DRAWN, Choice, Grid, Variation, Variations
 from svsa.inputs.checked import Checked, Number, Whole, quantity
-from svsa.runs.configuration import Configuration
-from svsa.runs.paper import DURATION_S, get_simulated_figure
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.definition.paper import DURATION_S, get_simulated_figure
 
 MAX_RUNS = 10**9
 MAX_LAWS = 20

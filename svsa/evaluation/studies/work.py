@@ -13,8 +13,8 @@ from svsa.evaluation.studies.outcome import Success, build_outcome, build_refuse
 from svsa.evaluation.studies.samples import ParameterSamples, build_configurations, draw
 from svsa.evaluation.studies.study import Study
 from svsa.inputs import arrow as pa
-from svsa.runs.batch import run_configurations
-from svsa.runs.configuration import Configuration
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.execution.batch import run_configurations
 
 ROW, DRAW, LAW, SEED = "row", "draw", "law", "seed"
 

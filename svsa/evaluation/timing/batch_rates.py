@@ -8,8 +8,8 @@ from functools import partial
 import numpy as np
 
 from svsa.evaluation.timing.turns import measure_in_turns
-from svsa.runs.batch import build_run_batch
-from svsa.runs.configuration import Configuration
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.execution.batch import build_run_batch
 from svsa.simulation.loop.batch import Batch, run_batch
 from svsa.simulation.plant.effects import EFFECTS, EVERY, IDEAL, RIG, Effects
 

@@ -11,9 +11,9 @@ from svsa.control.installed import PAPERS_LAW, list_law_names
 from svsa.control.law_names import AnyLaw
 from svsa.evaluation.timing.turns import measure_in_turns
 from svsa.numerics.packed import pack
-from svsa.runs.paper import get_figure
+from svsa.runs.definition.paper import get_figure
+from svsa.runs.execution.run import Run
 from svsa.runs.result.simulate import simulate
-from svsa.runs.run import Run
 from svsa.simulation.loop.measured import (
     Actuation,
     BenchConstants,

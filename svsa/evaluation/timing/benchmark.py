@@ -27,13 +27,13 @@ from svsa.evaluation.timing.bench_tick import measure_bench_tick
 from svsa.evaluation.timing.c_compiler import FLAGS, find_c_compiler
 from svsa.evaluation.timing.scipy_comparison import compare_with_scipy
 from svsa.evaluation.timing.turns import measure_in_turns
-from svsa.runs.arm.experiment import build_arm_experiment
-from svsa.runs.arm.run import ArmRun
-from svsa.runs.batch import build_run_batch
-from svsa.runs.experiment import build_actuator_experiment
-from svsa.runs.paper import DURATION_S, LOAD_TIME_S, get_figure
+from svsa.runs.definition.arm_experiment import build_arm_experiment
+from svsa.runs.definition.experiment import build_actuator_experiment
+from svsa.runs.definition.paper import DURATION_S, LOAD_TIME_S, get_figure
+from svsa.runs.execution.arm_run import ArmRun
+from svsa.runs.execution.batch import build_run_batch
+from svsa.runs.execution.run import Run
 from svsa.runs.result.simulate import simulate
-from svsa.runs.run import Run
 from svsa.simulation.arm.loop import advance_arm
 from svsa.simulation.loop.batch import run_batch
 from svsa.simulation.loop.loop import advance

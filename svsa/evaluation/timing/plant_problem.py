@@ -15,9 +15,9 @@ from svsa.actuators.signals import CHANNEL_INDEX, TORQUES, State, Torque
 from svsa.analysis.design.linear_model import STATES
 from svsa.numerics.borrowed import borrow
 from svsa.numerics.compilation import compiled
-from svsa.runs.paper import LOAD_TIME_S, get_figure
+from svsa.runs.definition.paper import LOAD_TIME_S, get_figure
+from svsa.runs.execution.run import Run
 from svsa.runs.result.simulate import simulate
-from svsa.runs.run import Run
 from svsa.simulation.plant.effects import EffectConstants
 from svsa.simulation.plant.integration import integrate_period
 from svsa.simulation.plant.load_table import LoadTable, compute_load

@@ -37,8 +37,8 @@ from svsa.evaluation.tuning.judge import (
     judge_variation,
 )
 from svsa.evaluation.tuning.tuner import Problem
-from svsa.runs.arm.experiment import build_arm_experiment, split_joints
-from svsa.runs.configuration import Configuration, Design
+from svsa.runs.definition.arm_experiment import build_arm_experiment, split_joints
+from svsa.runs.definition.configuration import Configuration, Design
 from svsa.runs.result.simulate_arm import simulate_arm
 from svsa.simulation.plant.loads import Load
 from svsa.simulation.plant.loads.tip import TipForce, TipImpulse, TipMass

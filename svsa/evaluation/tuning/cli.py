@@ -65,7 +65,7 @@ def tune(
         return
     from svsa.evaluation.campaign.journal import Journal, define_search
     from svsa.evaluation.tuning.file import describe_tuned
-    from svsa.runs.design_file import load_prototype, read_design
+    from svsa.runs.definition.design_file import load_prototype, read_design
 
     name = check_installed(law or "")
     path = None if as_json else output or Path(f"{name}.toml")

@@ -8,7 +8,7 @@ import scipy
 from svsa.control.installed import has_own_parameters
 from svsa.evaluation.tuning.tuner import Tuned, describe_candidate
 from svsa.inputs.extras import __version__
-from svsa.runs.design_file import format_design
+from svsa.runs.definition.design_file import format_design
 
 _NOT_TUNED = "as before the tuning"
 

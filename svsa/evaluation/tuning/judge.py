@@ -24,9 +24,9 @@ from svsa.evaluation.trials import (
     build_rest,
     list_mean_stiffnesses,
 )
-from svsa.runs.batch import RunSet
-from svsa.runs.configuration import Design
-from svsa.runs.design_file import load_prototype
+from svsa.runs.definition.configuration import Design
+from svsa.runs.definition.design_file import load_prototype
+from svsa.runs.execution.batch import RunSet
 
 NOT_HELD, FAULT = 2.0, 4.0
 LOUD, NO_REST = 5.0, 10.0

@@ -22,8 +22,8 @@ from svsa.hardware.realtime.loop import BenchLoop
 from svsa.hardware.realtime.memory import SampleArray
 from svsa.hardware.safety.heartbeat import Heartbeats
 from svsa.hardware.safety.machine import BenchStatus
-from svsa.runs.configuration import Configuration
-from svsa.runs.paper import LOAD_TIME_S, Figure
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.definition.paper import LOAD_TIME_S, Figure
 from svsa.runs.result.result import Result
 
 ARMING_S = 5.0

@@ -18,8 +18,8 @@ from svsa.hardware.drives.emulated import EmulatedMotor, EmulatorClock
 from svsa.hardware.drives.installed import get_family, read_emulated_motor
 from svsa.inputs.checked import Checked, Number, Whole, quantity
 from svsa.inputs.toml_file import read_toml
-from svsa.runs.design_file import load_prototype
-from svsa.runs.experiment import choose_stiffness
+from svsa.runs.definition.design_file import load_prototype
+from svsa.runs.definition.experiment import choose_stiffness
 from svsa.simulation.plant.effects.current_lag import CurrentLag
 from svsa.simulation.plant.effects.friction import Friction
 from svsa.simulation.plant.effects.gravity import LinkGravity

@@ -11,11 +11,11 @@ from svsa.errors import ParameterError, StateError, Violation
 from svsa.hardware.bench.real_motors import RealMotors
 from svsa.hardware.description.file import BenchFile, check_home
 from svsa.hardware.safety.guard import Guard
-from svsa.runs.configuration import Configuration, Design, Lane
-from svsa.runs.design_file import load_prototype, read_design
-from svsa.runs.experiment import build_actuator_experiment
-from svsa.runs.paper import get_figure
-from svsa.runs.shorthand import read_mechanism
+from svsa.runs.definition.configuration import Configuration, Design, Lane
+from svsa.runs.definition.design_file import load_prototype, read_design
+from svsa.runs.definition.experiment import build_actuator_experiment
+from svsa.runs.definition.paper import get_figure
+from svsa.runs.definition.shorthand import read_mechanism
 from svsa.simulation.loop.measured import Actuation
 from svsa.simulation.plant.effects import Effects
 from svsa.simulation.plant.effects.current_lag import CurrentLag

@@ -18,7 +18,7 @@ from svsa.hardware.realtime.link import LinkClosedError, build_links
 from svsa.hardware.realtime.memory import LoopMemory
 from svsa.hardware.realtime.prepared_laws import UnpreparedLawError
 from svsa.hardware.safety.heartbeat import Heartbeats
-from svsa.runs.configuration import Configuration
+from svsa.runs.definition.configuration import Configuration
 
 if TYPE_CHECKING:
     from svsa.hardware.safety.third_line import ThirdLine

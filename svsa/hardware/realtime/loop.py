@@ -18,10 +18,10 @@ from svsa.errors import StateError
 from svsa.hardware.bench.reading import Reading
 from svsa.hardware.safety.machine import BenchStatus
 from svsa.numerics.packed import pack, view_field
-from svsa.runs.blocks import Bind, bind_law
-from svsa.runs.command import Command
-from svsa.runs.configuration import Configuration
-from svsa.runs.run import Run, Start
+from svsa.runs.definition.command import Command
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.execution.blocks import Bind, bind_law
+from svsa.runs.execution.run import Run, Start
 from svsa.simulation.loop.lane import AT_REST, NO_TORQUE, UNDISTURBED, Blocks
 from svsa.simulation.loop.measured import (
     Actuation,

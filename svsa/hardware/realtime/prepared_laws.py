@@ -21,8 +21,8 @@ from svsa.control.law import LawError, Setting
 from svsa.control.parameters import LawParameters
 from svsa.errors import StateError
 from svsa.numerics.packed import pack
-from svsa.runs.blocks import build_setting
-from svsa.runs.configuration import Configuration, Lane
+from svsa.runs.definition.configuration import Configuration, Lane
+from svsa.runs.execution.blocks import build_setting
 from svsa.simulation.loop.lane import Blocks
 
 MAX_BOUND = 256
@@ -65,7 +65,7 @@ class PreparedLaws:
         self._is_closed = True
 
     def bind(self, configuration: Configuration, lane: Lane, blocks: Blocks) -> BoundLaw:
-        """Bind the law of one lane, as `svsa.runs.blocks.bind_law` does.
+        """Bind the law of one lane, as `svsa.runs.execution.blocks.bind_law` does.
 
         Args:
             configuration: Configuration of the run.

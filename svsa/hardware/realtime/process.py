@@ -29,8 +29,8 @@ from svsa.hardware.safety.heartbeat import Heartbeats
 from svsa.hardware.safety.machine import BenchStatus
 from svsa.hardware.schedule import LOOP_PRIORITY, request_real_time
 from svsa.numerics.compilation import watch_compilation
-from svsa.runs.command import read_command
-from svsa.runs.configuration import Configuration
+from svsa.runs.definition.command import read_command
+from svsa.runs.definition.configuration import Configuration
 
 FIRST_MESSAGE_S = 10.0
 LISTEN_S = 0.00015

@@ -12,8 +12,8 @@ from svsa.control.installed import get_law, list_law_names
 from svsa.errors import SvsaError
 from svsa.hardware.realtime.loop import BenchLoop
 from svsa.hardware.realtime.prepared_laws import PreparedLaws
-from svsa.runs.command import read_command
-from svsa.runs.configuration import Configuration
+from svsa.runs.definition.command import read_command
+from svsa.runs.definition.configuration import Configuration
 from svsa.simulation.plant.effects import EVERY
 
 _CHIRP = {"kind": "chirp", "start_hz": 0.1, "end_hz": 1.0, "duration_s": 1.0}

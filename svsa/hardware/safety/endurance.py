@@ -10,8 +10,8 @@ import numpy as np
 from svsa.actuators.signals import CHANNELS, TORQUES
 from svsa.hardware.description.file import BenchFile
 from svsa.hardware.safety.heat import Winding
-from svsa.runs.configuration import Configuration
-from svsa.runs.run import Run
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.execution.run import Run
 from svsa.simulation.plant.loads import Load
 
 BEFORE_S, LONGEST_S = 2.0, 30.0

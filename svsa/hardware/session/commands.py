@@ -8,8 +8,8 @@ from svsa.errors import StateError
 from svsa.hardware.realtime.configuration import check_loads, check_takes_no_time
 from svsa.hardware.realtime.launch import Rest
 from svsa.hardware.session.run import TWIN
-from svsa.runs.command import ApplyLoad, Command, Set, is_held
-from svsa.runs.configuration import Configuration, Lane
+from svsa.runs.definition.command import ApplyLoad, Command, Set, is_held
+from svsa.runs.definition.configuration import Configuration, Lane
 from svsa.runs.session.journal import Journal
 
 CHANGING_S = 0.001

@@ -24,7 +24,8 @@ from svsa.hardware.realtime.loop import BenchLoop
 from svsa.hardware.realtime.memory import SampleArray
 from svsa.hardware.safety.machine import BenchStatus
 from svsa.hardware.session.run import BenchRun
-from svsa.runs.command import Command, fold
+from svsa.runs.definition.command import Command, fold
+from svsa.runs.execution.replay import play
 from svsa.runs.records.header import PlantKind, RecordError
 from svsa.runs.records.reader import Record
 from svsa.runs.records.resimulation import (
@@ -32,7 +33,6 @@ from svsa.runs.records.resimulation import (
     describe_not_compared,
     read_origin,
 )
-from svsa.runs.replay import play
 from svsa.simulation.loop.measured import Actuation
 
 _HALF_STEP = 0.5 + 1e-6

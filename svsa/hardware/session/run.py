@@ -9,11 +9,11 @@ from svsa.actuators.signals import CHANNEL_INDEX
 from svsa.hardware.description.file import BenchFile
 from svsa.hardware.drives.conversion import build_motor_scale
 from svsa.hardware.realtime.configuration import read_actuation
-from svsa.runs.command import Command
-from svsa.runs.configuration import Configuration
-from svsa.runs.lane_origins import find_origins
+from svsa.runs.definition.command import Command
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.execution.run import Run, Start
 from svsa.runs.records.bench_start import BenchStart
-from svsa.runs.run import Run, Start
+from svsa.runs.timeline.lane_origins import find_origins
 from svsa.simulation.plant.load_table import ScheduledLoad
 
 if TYPE_CHECKING:

@@ -17,11 +17,11 @@ from svsa.hardware.session.report import BenchReport
 from svsa.hardware.session.run import BenchRun, describe_start
 from svsa.hardware.session.supervised_loop import SupervisedLoop
 from svsa.inputs.extras import require_extra
-from svsa.runs.command import NO_ARM, Command, JointNumber
-from svsa.runs.configuration import Configuration
+from svsa.runs.definition.command import NO_ARM, Command, JointNumber
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.execution.run import Start
 from svsa.runs.records.header import PlantKind
 from svsa.runs.records.recorder import Recorder
-from svsa.runs.run import Start
 from svsa.runs.session.clock import Pace
 from svsa.runs.session.journal import Journal
 from svsa.runs.session.session import PROGRAM_ERROR, Operator, Status

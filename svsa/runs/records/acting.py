@@ -7,11 +7,11 @@ from pydantic import TypeAdapter, ValidationError
 
 from svsa.actuators.parameters import Limits
 from svsa.errors import ParameterError
-from svsa.runs.command import OF_ARM, Set, Settable, list_changes
-from svsa.runs.configuration import Lane, Sampling
-from svsa.runs.loads import Loads, follow_loads
+from svsa.runs.definition.command import OF_ARM, Set, Settable, list_changes
+from svsa.runs.definition.configuration import Lane, Sampling
 from svsa.runs.records.header import RecordHeader
 from svsa.runs.records.parquet import Commands
+from svsa.runs.timeline.loads import Loads, follow_loads
 from svsa.simulation.plant.loads import Load
 
 _SEVERAL = {"laws": ("law", "comparisons"), "lane": ("comparisons",)}

@@ -9,7 +9,7 @@ from pydantic import BaseModel
 
 from svsa.control.gains import Gains
 from svsa.control.parameters import LawParameters
-from svsa.runs.command import OF_ARM
+from svsa.runs.definition.command import OF_ARM
 from svsa.runs.records.acting import SETTINGS, Acting, read_acting
 from svsa.runs.records.reader import Record
 from svsa.runs.records.settings import NO_LOAD

@@ -18,7 +18,7 @@ from svsa.errors import ParameterError, SvsaError, Violation
 from svsa.inputs.checked import Checked, Number, Whole, quantity
 from svsa.inputs.extras import __version__
 from svsa.inputs.nesting import load_json
-from svsa.runs.configuration import Configuration
+from svsa.runs.definition.configuration import Configuration
 from svsa.runs.records.former_words import FIELDS, translate_fields
 
 FORMAT = 1

@@ -5,11 +5,11 @@ from collections.abc import Iterable
 from dataclasses import asdict, dataclass, replace
 
 from svsa.errors import SvsaError
-from svsa.runs.loads import list_loads
-from svsa.runs.metrics import MEASURED, Metrics, RunningMetrics
+from svsa.runs.metrics.metrics import MEASURED, Metrics, RunningMetrics
 from svsa.runs.records.reader import Record
 from svsa.runs.records.resimulation import read_origin
-from svsa.runs.timeline import Timeline, Window, WindowKind, read_timeline
+from svsa.runs.timeline.loads import list_loads
+from svsa.runs.timeline.timeline import Timeline, Window, WindowKind, read_timeline
 
 
 @dataclass(frozen=True)

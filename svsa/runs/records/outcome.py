@@ -6,8 +6,8 @@ from pathlib import Path
 from pydantic import TypeAdapter, ValidationError
 
 from svsa.errors import Fault
-from svsa.runs.events import Event
 from svsa.runs.records.header import RecordError, replace_file
+from svsa.runs.timeline.events import Event
 
 EVENTS_FILE = "events.json"
 _EVENTS = TypeAdapter(tuple[Event, ...])

@@ -13,7 +13,6 @@ from typing import IO, Any, NamedTuple
 from svsa.errors import Fault
 from svsa.inputs import arrow as pa
 from svsa.inputs.nesting import load_json
-from svsa.runs.events import Event
 from svsa.runs.records.bench_start import START_FILE, BenchStart, dump_start
 from svsa.runs.records.former_words import translate_command
 from svsa.runs.records.header import (
@@ -28,6 +27,7 @@ from svsa.runs.records.header import (
 )
 from svsa.runs.records.outcome import EVENTS_FILE, FAULT_FILE, dump_events, dump_fault
 from svsa.runs.records.stream import HEADER_KEY, build_schema, read_stream
+from svsa.runs.timeline.events import Event
 
 COMMANDS_KEY = b"svsa.commands"
 FAULT_KEY = b"svsa.fault"

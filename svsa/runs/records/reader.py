@@ -14,7 +14,6 @@ import numpy as np
 from svsa.errors import Fault
 from svsa.inputs import arrow as pa
 from svsa.inputs.file_lock import try_lock
-from svsa.runs.events import Event
 from svsa.runs.records.bench_start import BenchStart, read_start
 from svsa.runs.records.header import (
     PARQUET_FILE,
@@ -40,6 +39,7 @@ from svsa.runs.records.stream import (
     read_batch,
     read_stream,
 )
+from svsa.runs.timeline.events import Event
 
 ReadBatches = Callable[[Sequence[str] | None, int, int], Iterator["pa.RecordBatch"]]
 

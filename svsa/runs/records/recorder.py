@@ -15,12 +15,12 @@ from typing import Any, Literal
 import numpy as np
 
 from svsa.errors import Fault
-from svsa.runs.events import Event
 from svsa.runs.records.bench_start import BenchStart, write_start
 from svsa.runs.records.header import RecordError, RecordHeader
 from svsa.runs.records.outcome import write_events, write_fault
 from svsa.runs.records.parquet import ROWS_PER_GROUP, measure_bytes, write_command
 from svsa.runs.records.writer import RecordWriter
+from svsa.runs.timeline.events import Event
 
 FLUSH_PERIOD_S = 0.2
 LONGEST_CLOSE_S = 5.0

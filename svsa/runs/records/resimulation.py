@@ -7,11 +7,11 @@ import numpy as np
 
 from svsa.actuators.signals import CHANNEL_INDEX, CHANNEL_NAMES
 from svsa.control.installed import OWN_LAW
-from svsa.runs.command import Command, read_command
-from svsa.runs.configuration import Configuration
+from svsa.runs.definition.command import Command, read_command
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.execution.replay import simulate_again
 from svsa.runs.records.header import RecordError
 from svsa.runs.records.reader import Record
-from svsa.runs.replay import simulate_again
 
 
 @dataclass(frozen=True)

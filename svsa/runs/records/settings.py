@@ -10,8 +10,9 @@ from dataclasses import dataclass, replace
 
 from svsa.actuators.installed import get_mechanism, list_mechanism_names
 from svsa.actuators.parameters import SVSA
-from svsa.runs.design_file import load_prototype
-from svsa.runs.paper import LOAD_TIME_S, get_figure
+from svsa.runs.definition.design_file import load_prototype
+from svsa.runs.definition.paper import LOAD_TIME_S, get_figure
+from svsa.runs.definition.shorthand import read_mechanism
 from svsa.runs.records.acting import Acting, read_acting
 from svsa.runs.records.header import RecordHeader
 from svsa.runs.records.parquet import Commands
@@ -25,7 +26,6 @@ from svsa.runs.records.wording import (
     describe_reference,
     follow,
 )
-from svsa.runs.shorthand import read_mechanism
 from svsa.simulation.reference.paper import ON_BENCH, References, find_figure
 
 NO_LOAD = "no load"

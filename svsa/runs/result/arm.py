@@ -14,13 +14,13 @@ from svsa.actuators.arm.dynamics import (
 )
 from svsa.actuators.signals import CHANNEL_INDEX
 from svsa.errors import Fault
-from svsa.runs.arm.experiment import split_joints
-from svsa.runs.command import Command
-from svsa.runs.configuration import Configuration
-from svsa.runs.events import find_law
-from svsa.runs.loads import list_loads
+from svsa.runs.definition.arm_experiment import split_joints
+from svsa.runs.definition.command import Command
+from svsa.runs.definition.configuration import Configuration
 from svsa.runs.result.law_style import name_law
 from svsa.runs.result.result import Result
+from svsa.runs.timeline.events import find_law
+from svsa.runs.timeline.loads import list_loads
 from svsa.simulation.arm.tip_loads import build_tip_table, compute_wall_force
 from svsa.simulation.plant.loads.tip import Wall
 

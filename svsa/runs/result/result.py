@@ -16,13 +16,13 @@ from svsa.actuators.signals import CHANNELS
 from svsa.errors import Fault, ParameterError, Violation
 from svsa.inputs.checked import check_number
 from svsa.inputs.extras import list_missing, require_extra
-from svsa.runs.command import Command
-from svsa.runs.configuration import Configuration
-from svsa.runs.events import find_law
-from svsa.runs.metrics import Metrics, compute_metrics
+from svsa.runs.definition.command import Command
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.metrics.metrics import Metrics, compute_metrics
 from svsa.runs.records.header import PlantKind
 from svsa.runs.result.channels import Channels
 from svsa.runs.result.law_style import name_law
+from svsa.runs.timeline.events import find_law
 
 if TYPE_CHECKING:
     import pandas

@@ -8,7 +8,7 @@ import numpy as np
 from svsa.actuators.signals import CHANNEL_INDEX, CHANNELS
 from svsa.control.installed import OWN_LAW
 from svsa.errors import StateError
-from svsa.runs.configuration import Configuration
+from svsa.runs.definition.configuration import Configuration
 from svsa.runs.records.catalogue.entry import RunEntry
 from svsa.runs.records.catalogue.runs import Catalogue
 from svsa.runs.records.header import RecordHeader, build_header, is_run_id

@@ -11,16 +11,16 @@ from svsa.actuators.signals import CHANNELS
 from svsa.control.installed import OWN_LAW
 from svsa.errors import ParameterError, Violation
 from svsa.inputs.checked import check_number
-from svsa.runs.change import Change, build_commands
-from svsa.runs.configuration import Configuration, Design
-from svsa.runs.experiment import build_experiment
-from svsa.runs.law_object import begin_run
-from svsa.runs.paper import DURATION_S
-from svsa.runs.replay import STRETCH_TICKS, play
+from svsa.runs.definition.change import Change, build_commands
+from svsa.runs.definition.configuration import Configuration, Design
+from svsa.runs.definition.experiment import build_experiment
+from svsa.runs.definition.paper import DURATION_S
+from svsa.runs.definition.shorthand import LawChoice, Settings
+from svsa.runs.execution.law_object import begin_run
+from svsa.runs.execution.replay import STRETCH_TICKS, play
+from svsa.runs.execution.run import Run
 from svsa.runs.result.progress import Follow, follow_progress
 from svsa.runs.result.result import Result, build_results
-from svsa.runs.run import Run
-from svsa.runs.shorthand import LawChoice, Settings
 from svsa.simulation.loop.stepwise import Controller
 
 MAX_TICKS = 5_000_000

@@ -8,16 +8,16 @@ import numpy as np
 from svsa.actuators.arm.parameters import ArmParameters
 from svsa.actuators.signals import CHANNELS
 from svsa.control.arm_payload import PayloadAdaptation
-from svsa.runs.arm.experiment import build_arm_experiment
-from svsa.runs.arm.run import ArmRun
-from svsa.runs.change import Change, build_commands
-from svsa.runs.configuration import Configuration
-from svsa.runs.paper import DURATION_S
-from svsa.runs.replay import play
+from svsa.runs.definition.arm_experiment import build_arm_experiment
+from svsa.runs.definition.change import Change, build_commands
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.definition.paper import DURATION_S
+from svsa.runs.definition.shorthand import LawChoice, Settings
+from svsa.runs.execution.arm_run import ArmRun
+from svsa.runs.execution.replay import play
 from svsa.runs.result.arm import ArmResult, build_arm_results
 from svsa.runs.result.progress import Follow, follow_progress
 from svsa.runs.result.simulate import check_size
-from svsa.runs.shorthand import LawChoice, Settings
 from svsa.simulation.arm.tip_reference import AnyTipReference
 from svsa.simulation.plant.loads.tip import AnyTipLoad
 

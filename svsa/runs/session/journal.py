@@ -6,15 +6,21 @@ from collections.abc import Callable
 
 from svsa.actuators.faults import label_fault
 from svsa.errors import Fault, StateError
-from svsa.runs.command import ApplyLoad, Command, RemoveLoad, Stop
-from svsa.runs.configuration import MAX_LANES, Configuration
-from svsa.runs.events import Event, describe_change, describe_end, describe_onset, list_laws
+from svsa.runs.definition.command import ApplyLoad, Command, RemoveLoad, Stop
+from svsa.runs.definition.configuration import MAX_LANES, Configuration
+from svsa.runs.execution.run import Run
+from svsa.runs.metrics.window_metrics import WindowMetrics
 from svsa.runs.records.header import BranchPoint
 from svsa.runs.records.recorder import Recorder
-from svsa.runs.run import Run
 from svsa.runs.session.history import History
-from svsa.runs.timeline import Timeline
-from svsa.runs.window_metrics import WindowMetrics
+from svsa.runs.timeline.events import (
+    Event,
+    describe_change,
+    describe_end,
+    describe_onset,
+    list_laws,
+)
+from svsa.runs.timeline.timeline import Timeline
 from svsa.simulation.plant.load_table import ScheduledLoad
 from svsa.simulation.plant.loads import Load
 

@@ -4,11 +4,11 @@ from collections.abc import Callable
 from typing import Literal, Protocol
 
 from svsa.errors import Fault
-from svsa.runs.command import Command, JointNumber, RemoveLoad
-from svsa.runs.configuration import Configuration
+from svsa.runs.definition.command import Command, JointNumber, RemoveLoad
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.execution.run import Run
 from svsa.runs.records.header import PlantKind
 from svsa.runs.records.recorder import Recorder
-from svsa.runs.run import Run
 from svsa.runs.session.clock import Pace
 from svsa.runs.session.journal import Journal
 from svsa.simulation.plant.loads import Load

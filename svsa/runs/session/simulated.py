@@ -4,12 +4,12 @@ from collections.abc import Callable, Iterable, Sequence
 from typing import Self
 
 from svsa.errors import Fault, StateError
-from svsa.runs.arm.run import build_run
-from svsa.runs.command import Command, JointNumber, fold, is_held, list_joint_commands
-from svsa.runs.configuration import Configuration
+from svsa.runs.definition.command import Command, JointNumber, fold, is_held, list_joint_commands
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.execution.arm_run import build_run
+from svsa.runs.execution.run import Run
 from svsa.runs.records.header import BranchPoint, PlantKind
 from svsa.runs.records.recorder import Recorder
-from svsa.runs.run import Run
 from svsa.runs.session.clock import Pace, SimulationClock
 from svsa.runs.session.journal import Journal
 from svsa.runs.session.session import PROGRAM_ERROR, Status

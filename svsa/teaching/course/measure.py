@@ -11,8 +11,8 @@ from svsa.actuators.signals import CHANNEL_INDEX, CHANNELS
 from svsa.errors import ParameterError, Violation
 from svsa.evaluation.studies.setting import read_setting
 from svsa.inputs.checked import Checked, Number, Whole, quantity
-from svsa.runs.command import fold
-from svsa.runs.configuration import MAX_LANES, Configuration
+from svsa.runs.definition.command import fold
+from svsa.runs.definition.configuration import MAX_LANES, Configuration
 from svsa.runs.result.arm import ArmResult
 from svsa.runs.result.channels import ChannelName
 from svsa.runs.result.result import Result

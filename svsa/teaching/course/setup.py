@@ -11,9 +11,9 @@ from svsa.errors import ParameterError
 from svsa.evaluation.studies.setting import change_settings
 from svsa.evaluation.studies.study import FIGURE, build_base
 from svsa.inputs.checked import Checked, Number, quantity
-from svsa.runs.arm.experiment import build_arm_experiment
-from svsa.runs.command import ApplyLoad, Command, RemoveLoad, Stop, fold
-from svsa.runs.configuration import MAX_LANES, Configuration, Lane
+from svsa.runs.definition.arm_experiment import build_arm_experiment
+from svsa.runs.definition.command import ApplyLoad, Command, RemoveLoad, Stop, fold
+from svsa.runs.definition.configuration import MAX_LANES, Configuration, Lane
 from svsa.runs.result.result import Result
 from svsa.teaching.course.on_bench import SET_ON_BENCH, OnBench
 

@@ -16,10 +16,10 @@ from svsa.evaluation.ranking.test_set import build_test_trial
 from svsa.evaluation.scenario import Scenario
 from svsa.evaluation.statistics import NORMAL_QUANTILE
 from svsa.numerics.simd.number import WIDTH
-from svsa.runs.batch import find_alike, run_group
-from svsa.runs.blocks import build_blocks, compute_start_ratio
-from svsa.runs.configuration import Configuration
-from svsa.runs.fault import build_fault
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.execution.batch import find_alike, run_group
+from svsa.runs.execution.blocks import build_blocks, compute_start_ratio
+from svsa.runs.execution.fault import build_fault
 from svsa.teaching.course.criterion import CriterionResult
 from svsa.teaching.isolation.confinement import BOUNDS, confine
 from svsa.teaching.isolation.probe import check_isolation

@@ -11,7 +11,7 @@ from svsa.control.installed import PAPERS_LAW
 from svsa.evaluation.metrics import find_held, summarize_result
 from svsa.evaluation.ranking.entry import build_entry
 from svsa.evaluation.scenario import Scenario
-from svsa.runs.blocks import compute_start_ratio
+from svsa.runs.execution.blocks import compute_start_ratio
 from svsa.runs.result.result import Result
 from svsa.runs.result.simulate import simulate
 from svsa.teaching.isolation.confinement import BOUNDS, Bounds, confine

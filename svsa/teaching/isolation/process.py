@@ -220,7 +220,7 @@ class LawProcess(RunningLaw):
 
 
 class GroupProcess(RunningLaw):
-    """An isolated law as a `GroupController` of `svsa.runs.batch.run_group`.
+    """An isolated law as a `GroupController` of `svsa.runs.execution.batch.run_group`.
 
     One process for at most eight runs, with a separate law for each; `models` has one per run. See
     `RunningLaw`.

@@ -15,7 +15,7 @@ from svsa.analysis.design.attraction import (
 from svsa.analysis.design.closed_loop import linearize_loop
 from svsa.analysis.design.response import ONSET_S, simulate_load
 from svsa.analysis.design.sampled_loop import compute_disturbance_response
-from svsa.runs.configuration import Configuration
+from svsa.runs.definition.configuration import Configuration
 
 COARSE = 11
 

@@ -10,7 +10,7 @@ from svsa.analysis.design.loop_noise import choose_sensing, compute_loop_noise
 from svsa.analysis.design.prediction import LOAD, measure_demand, predict
 from svsa.analysis.design.sampled_loop import linearize_tick
 from svsa.analysis.design.steady_error import compute_fl_steady_error, find_steady_error
-from svsa.runs.configuration import Configuration
+from svsa.runs.definition.configuration import Configuration
 from svsa.simulation.plant.effects import Effects
 from svsa.simulation.plant.effects.estimation import StateEstimation
 from svsa.simulation.plant.effects.noise import SensorNoise

@@ -22,8 +22,8 @@ from svsa.control.call import build_call
 from svsa.control.installed import list_law_names
 from svsa.control.law import Law
 from svsa.numerics.compilation import compiled
-from svsa.runs.configuration import Configuration
-from svsa.runs.run import Run
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.execution.run import Run
 from svsa.simulation.loop.lane import build_lane_state
 from svsa.simulation.loop.loop import decide, observe
 from svsa.simulation.plant.integration import integrate_period

@@ -17,7 +17,7 @@ from svsa.analysis.design.robustness import find_stable_ranges
 from svsa.analysis.design.sampled_loop import find_fastest_observer, linearize_tick
 from svsa.analysis.design.stability import assess
 from svsa.control.installed import get_law
-from svsa.runs.configuration import Configuration
+from svsa.runs.definition.configuration import Configuration
 from tests.exhaustive import exhaust
 
 FASTEST_ON_RIG = {5.0: 236.0, 15.0: 249.0, 30.0: 263.0, 60.0: 278.0}

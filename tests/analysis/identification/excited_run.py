@@ -5,9 +5,9 @@ import numpy as np
 import svsa
 from svsa.actuators.signals import CHANNEL_INDEX, CHANNELS
 from svsa.analysis.identification.excitation import EXCITATION_DURATION_S, build_commands
-from svsa.runs.configuration import Configuration
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.execution.replay import replay
 from svsa.runs.records.reader import build_record
-from svsa.runs.replay import replay
 from svsa.simulation.plant.effects.current_lag import CurrentLag
 from svsa.simulation.plant.effects.encoders import Encoders
 from svsa.simulation.plant.effects.estimation import StateEstimation

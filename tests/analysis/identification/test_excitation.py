@@ -8,7 +8,7 @@ from svsa.analysis.identification.excitation import (
     EXCITATION_DURATION_S,
     build_commands,
 )
-from svsa.runs.command import build_command
+from svsa.runs.definition.command import build_command
 from svsa.runs.session.simulated import SimulatedSession
 
 from .excited_run import DESIGN, build_configuration, get, play

@@ -17,10 +17,10 @@ from svsa.analysis.identification.record import (
     build_torques,
     read_evidence,
 )
-from svsa.runs.command import build_command
-from svsa.runs.design_file import read_design
-from svsa.runs.loads import list_loads
+from svsa.runs.definition.command import build_command
+from svsa.runs.definition.design_file import read_design
 from svsa.runs.records.catalogue.runs import Catalogue
+from svsa.runs.timeline.loads import list_loads
 from svsa.simulation.plant.effects.current_lag import CurrentLag
 from svsa.simulation.plant.effects.encoders import Encoders
 from svsa.simulation.plant.effects.friction import Friction

@@ -7,7 +7,7 @@ from svsa.actuators.signals import CHANNELS
 from svsa.analysis.identification.excitation import EXCITATION_DURATION_S, build_commands
 from svsa.analysis.identification.identify import ACTUATOR, identify
 from svsa.hardware.emulator.experiment import LockstepBench
-from svsa.runs.paper import get_figure
+from svsa.runs.definition.paper import get_figure
 from svsa.runs.records.reader import build_record
 from tests.hardware.emulator.in_process_emulator import start_in_process
 from tests.runs.records.records import build_header

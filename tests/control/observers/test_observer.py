@@ -10,7 +10,7 @@ from svsa.actuators.signals import CHANNEL_INDEX, Disturbance, Reference, State,
 from svsa.control.laws.feedback_linearization import build_gains
 from svsa.control.laws.ndobc import compute_ndobc
 from svsa.control.observers.disturbance import compute_shares, update_disturbance_estimate
-from svsa.runs.run import Run
+from svsa.runs.execution.run import Run
 from svsa.simulation.plant.load_table import build_load_table, schedule_load
 from tests.actuators.prototype import DESIGN, NOMINAL, PLANT, build_state, integrate_ideal, record
 

@@ -9,8 +9,8 @@ from typing import NamedTuple
 
 import svsa
 from svsa.evaluation.reproduction import compute_table_row
-from svsa.runs.configuration import Configuration
-from svsa.runs.paper import FIGURES, LOAD_TIME_S, STEADY_S
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.definition.paper import FIGURES, LOAD_TIME_S, STEADY_S
 from svsa.simulation.plant.effects import RIG
 from svsa.simulation.plant.loads.mass import MassLoad
 from svsa.simulation.plant.loads.sine import SineLoad

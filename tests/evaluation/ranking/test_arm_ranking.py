@@ -25,7 +25,7 @@ from svsa.evaluation.ranking.arm import (
 from svsa.evaluation.tuning.arm import ArmController, run_arm_trials
 from svsa.evaluation.tuning.judge import LOUD
 from svsa.evaluation.tuning.search_space import build_space
-from svsa.runs.design_file import load_prototype
+from svsa.runs.definition.design_file import load_prototype
 
 SMALL = ArmProtocol(budget=4, training=2, validation=2, trials=6)
 OPTIONS = ["--budget", "4", "--training", "2", "--validation", "2", "--trials", "6"]

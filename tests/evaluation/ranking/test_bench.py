@@ -20,7 +20,7 @@ from svsa.evaluation.ranking.bench_runs import (
 from svsa.evaluation.ranking.bench_table import build_section
 from svsa.evaluation.ranking.measure_bench import measure_on_bench, measure_run
 from svsa.evaluation.ranking.row import RecoveryErrors
-from svsa.runs.paper import BENCH_FIGURES
+from svsa.runs.definition.paper import BENCH_FIGURES
 from svsa.runs.result.simulate import simulate
 from tests.exhaustive import exhaust
 from tests.hardware.emulator.in_process_emulator import start_in_process

@@ -7,7 +7,7 @@ import pytest
 import svsa
 from svsa.control.installed import get_law
 from svsa.control.laws import backstepping, esp
-from svsa.runs.paper import FIGURES, STEADY_S
+from svsa.runs.definition.paper import FIGURES, STEADY_S
 from tests.evaluation.ranking.prototypes import KEPT, PROTOTYPES, Cell, compare, measure_figures
 from tests.exhaustive import exhaust
 

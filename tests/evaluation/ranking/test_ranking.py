@@ -27,7 +27,7 @@ from svsa.evaluation.ranking.single_run import build_shown_run
 from svsa.evaluation.ranking.test_set import build_test_set
 from svsa.evaluation.trials import LOAD_S
 from svsa.evaluation.tuning.tuned_law import load_tuned_laws
-from svsa.runs.batch import run_configurations
+from svsa.runs.execution.batch import run_configurations
 from svsa.simulation.loop.tally import SUMMARY
 from svsa.simulation.reference.kinds.steps import StepsPosition
 

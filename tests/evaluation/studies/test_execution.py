@@ -13,8 +13,8 @@ from svsa.evaluation.studies.rows import read_rows
 from svsa.evaluation.studies.samples import build_configurations, draw
 from svsa.evaluation.studies.store import STUDY_FILE, claim_study, keep_study, open_study
 from svsa.evaluation.studies.stored import StudyError
-from svsa.runs.configuration import Configuration
-from svsa.runs.run import Run
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.execution.run import Run
 from tests.evaluation.studies.ended import end_before_completion
 from tests.evaluation.studies.studies import SHORT_S, build_study
 from tests.exhaustive import exhaust

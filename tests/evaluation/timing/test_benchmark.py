@@ -14,7 +14,7 @@ from svsa.actuators.installed import list_mechanism_names
 from svsa.actuators.signals import CHANNEL_INDEX, TORQUES
 from svsa.cli import app
 from svsa.evaluation.timing import batch_rates, bench_tick, benchmark, scipy_comparison
-from svsa.runs.run import Run
+from svsa.runs.execution.run import Run
 from tests.exhaustive import exhaust
 
 RUNNER = CliRunner()

@@ -19,7 +19,7 @@ from svsa.evaluation.tuning.arm import (
 )
 from svsa.evaluation.tuning.judge import LOUD, NO_REST, find_noise_limit
 from svsa.evaluation.tuning.tuner import tune
-from svsa.runs.design_file import load_prototype
+from svsa.runs.definition.design_file import load_prototype
 
 COUNT = 60
 

@@ -18,7 +18,7 @@ from svsa.evaluation.tuning.judge import LOUD, Judgment, TrialSet, find_noise_li
 from svsa.evaluation.tuning.search_space import build_space
 from svsa.evaluation.tuning.tuned_law import TunedLaw, build_tuned_law, load_tuned_laws
 from svsa.evaluation.tuning.tuner import tune
-from svsa.runs.design_file import parse_design
+from svsa.runs.definition.design_file import parse_design
 
 pytestmark = pytest.mark.long
 

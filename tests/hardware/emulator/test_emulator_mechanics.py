@@ -10,7 +10,7 @@ from svsa.actuators.signals import State, Torque
 from svsa.errors import ParameterError
 from svsa.hardware.emulator.mechanics import GRID_US, Mechanics
 from svsa.hardware.emulator.parameters import EmulatorParameters, read_emulator_parameters
-from svsa.runs.design_file import load_prototype
+from svsa.runs.definition.design_file import load_prototype
 from svsa.simulation.plant.effects import Effects, build_effect_constants
 from svsa.simulation.plant.effects.current_lag import CurrentLag
 from svsa.simulation.plant.effects.friction import Friction

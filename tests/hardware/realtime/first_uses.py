@@ -25,7 +25,7 @@ from svsa.hardware.realtime.memory import LoopMemory, SampleArray
 from svsa.hardware.realtime.prepared_laws import PreparedLaws, compute_constants
 from svsa.hardware.realtime.process import LoopProcess
 from svsa.hardware.realtime.warm_up import list_changes, warm_up
-from svsa.runs.paper import get_figure
+from svsa.runs.definition.paper import get_figure
 from tests.hardware.wired_bench import WiredBench
 
 ARMING_TICKS, RAMP_TICKS = 1500, 500

@@ -11,7 +11,7 @@ from svsa.hardware.realtime import launch
 from svsa.hardware.realtime.launch import BenchError, BenchProcesses
 from svsa.hardware.realtime.link import LinkClosedError
 from svsa.numerics.compilation import watch_compilation
-from svsa.runs.paper import get_figure
+from svsa.runs.definition.paper import get_figure
 from svsa_server.sessions.bench_start import show_steps
 
 

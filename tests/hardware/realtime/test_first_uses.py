@@ -23,10 +23,10 @@ from svsa.hardware.realtime.prepared_laws import compute_constants
 from svsa.hardware.realtime.warm_up import list_changes
 from svsa.hardware.session.supervised_loop import SupervisedLoop
 from svsa.numerics.compilation import compiled
-from svsa.runs.blocks import bind_law, build_blocks
-from svsa.runs.command import COMMANDS, OF_ARM
-from svsa.runs.configuration import Lane
-from svsa.runs.paper import get_figure
+from svsa.runs.definition.command import COMMANDS, OF_ARM
+from svsa.runs.definition.configuration import Lane
+from svsa.runs.definition.paper import get_figure
+from svsa.runs.execution.blocks import bind_law, build_blocks
 from svsa.simulation.plant.loads import LOADS
 from svsa.simulation.plant.loads.load import TIP
 from svsa.simulation.reference.kinds import POSITIONS, STIFFNESSES

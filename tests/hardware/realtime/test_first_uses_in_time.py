@@ -12,9 +12,9 @@ from svsa.hardware.bench.homing import STEPS
 from svsa.hardware.emulator.launch import start_emulator
 from svsa.hardware.safety.machine import BenchStatus
 from svsa.hardware.session.session import BenchSession
-from svsa.runs.command import Set
-from svsa.runs.paper import get_figure
-from svsa.runs.run import Run
+from svsa.runs.definition.command import Set
+from svsa.runs.definition.paper import get_figure
+from svsa.runs.execution.run import Run
 from svsa.simulation.reference.kinds.constant import ConstantPosition
 from tests.hardware.live_bench import IDLE_S, write_bench
 

@@ -9,8 +9,8 @@ from svsa.hardware.realtime.configuration import build_bench_configuration, read
 from svsa.hardware.realtime.loop import BenchLoop
 from svsa.hardware.realtime.memory import SampleArray
 from svsa.hardware.safety.machine import BenchStatus
-from svsa.runs.command import Set
-from svsa.runs.paper import get_figure
+from svsa.runs.definition.command import Set
+from svsa.runs.definition.paper import get_figure
 from tests.hardware.wired_bench import WiredBench
 
 MOVING_TICKS = 400

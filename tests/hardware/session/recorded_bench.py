@@ -11,11 +11,11 @@ from svsa.hardware.realtime.loop import BenchLoop
 from svsa.hardware.realtime.memory import SampleArray
 from svsa.hardware.safety.machine import BenchStatus
 from svsa.hardware.session.run import BenchRun, describe_start
-from svsa.runs.command import Command
-from svsa.runs.configuration import Configuration
+from svsa.runs.definition.command import Command
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.execution.replay import play
 from svsa.runs.records.bench_start import BenchStart, write_start
 from svsa.runs.records.writer import write_record
-from svsa.runs.replay import play
 from tests.hardware.wired_bench import WiredBench
 from tests.runs.records.records import build_header
 

@@ -10,9 +10,9 @@ import pytest
 from svsa.actuators.signals import CHANNEL_INDEX
 from svsa.control.observers.disturbance import ObserverBandwidth
 from svsa.hardware.session.replay import Verified, verify_bench_record
-from svsa.runs.command import Set
-from svsa.runs.configuration import Configuration
-from svsa.runs.paper import get_figure
+from svsa.runs.definition.command import Set
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.definition.paper import get_figure
 from svsa.runs.records.bench_start import START_FILE, BenchStart
 from svsa.runs.records.export.formats import export
 from svsa.runs.records.header import RecordError

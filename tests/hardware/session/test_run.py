@@ -10,8 +10,8 @@ from svsa.hardware.description.file import read_bench
 from svsa.hardware.realtime.configuration import build_bench_configuration
 from svsa.hardware.realtime.memory import CAPACITY_TICKS, LoopMemory
 from svsa.hardware.session.run import TWIN, BenchRun
-from svsa.runs.paper import get_figure
-from svsa.runs.run import Start
+from svsa.runs.definition.paper import get_figure
+from svsa.runs.execution.run import Start
 from svsa.runs.session.journal import Journal
 from svsa.simulation.loop.lane import AT_REST
 from tests.hardware.wired_bench import EMULATOR_BENCH

@@ -19,13 +19,13 @@ from svsa.evaluation.studies.replay import measure_samples
 from svsa.evaluation.timing.benchmark import list_c_constants
 from svsa.hardware.commissioning import magnitudes
 from svsa.hardware.emulator.experiment import LockstepBench
-from svsa.runs.arm import run as arm_run
-from svsa.runs.arm.experiment import build_arm_experiment
-from svsa.runs.batch import run_configurations
-from svsa.runs.configuration import Configuration
-from svsa.runs.fault import build_fault
-from svsa.runs.paper import get_figure
-from svsa.runs.run import Run, Start
+from svsa.runs.definition.arm_experiment import build_arm_experiment
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.definition.paper import get_figure
+from svsa.runs.execution import arm_run
+from svsa.runs.execution.batch import run_configurations
+from svsa.runs.execution.fault import build_fault
+from svsa.runs.execution.run import Run, Start
 from svsa.simulation.reference.preview import sample_reference
 from tests.analysis.identification.excited_run import build_configuration, build_run, play
 from tests.hardware.emulator.in_process_emulator import start_in_process

@@ -6,9 +6,9 @@ from typing import Any
 
 import pytest
 
-from svsa.runs.configuration import Lane
-from svsa.runs.metrics import compute_metrics
-from svsa.runs.paper import get_figure
+from svsa.runs.definition.configuration import Lane
+from svsa.runs.definition.paper import get_figure
+from svsa.runs.metrics.metrics import compute_metrics
 from svsa.runs.records.measured_window import MeasuredWindow, find_measured_window, measure
 from svsa.runs.records.reader import Record, build_record
 from svsa.simulation.plant.loads.mass import MassLoad

@@ -6,8 +6,8 @@ import pytest
 
 import svsa
 from svsa.actuators.installed import get_mechanism, list_mechanism_names
-from svsa.runs.command import Set
-from svsa.runs.configuration import Configuration
+from svsa.runs.definition.command import Set
+from svsa.runs.definition.configuration import Configuration
 from svsa.runs.records.catalogue.runs import Catalogue
 from svsa.runs.records.reader import open_record
 from svsa.runs.records.resimulation import compare_with_simulation

@@ -11,9 +11,8 @@ from scipy.io import loadmat
 
 import svsa
 from svsa.hardware.session.report import HeatEvents
-from svsa.runs.command import build_command
-from svsa.runs.events import Event, list_events
-from svsa.runs.paper import get_figure
+from svsa.runs.definition.command import build_command
+from svsa.runs.definition.paper import get_figure
 from svsa.runs.records.export.formats import export
 from svsa.runs.records.header import RecordError
 from svsa.runs.records.outcome import EVENTS_FILE
@@ -21,6 +20,7 @@ from svsa.runs.records.parquet import unpack_parquet
 from svsa.runs.records.reader import Record, open_record
 from svsa.runs.records.resimulation import read_origin
 from svsa.runs.session.simulated import SimulatedSession
+from svsa.runs.timeline.events import Event, list_events
 
 from .records import build_header
 

@@ -8,7 +8,7 @@ import pytest
 import svsa
 from svsa.actuators.faults import label_fault
 from svsa.errors import Fault
-from svsa.runs.paper import get_figure
+from svsa.runs.definition.paper import get_figure
 from svsa.runs.records.catalogue.runs import Catalogue
 from svsa.runs.records.header import RecordError
 from svsa.runs.records.outcome import FAULT_FILE

@@ -11,9 +11,9 @@ from hypothesis import given
 
 import svsa
 from svsa.control.installed import list_law_names
-from svsa.runs.command import Set, read_command
-from svsa.runs.configuration import Configuration
-from svsa.runs.replay import replay, simulate_again
+from svsa.runs.definition.command import Set, read_command
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.execution.replay import replay, simulate_again
 from tests.runs.session.scripts import (
     collect,
     play,
@@ -61,9 +61,9 @@ def test_new_process_reproduces_the_bits():
     program = (
         "import hashlib, json, sys\n"
         "import numpy as np\n"
-        "from svsa.runs.command import read_command\n"
-        "from svsa.runs.replay import simulate_again\n"
-        "from svsa.runs.configuration import Configuration\n"
+        "from svsa.runs.definition.command import read_command\n"
+        "from svsa.runs.execution.replay import simulate_again\n"
+        "from svsa.runs.definition.configuration import Configuration\n"
         "written = json.load(sys.stdin)\n"
         "commands = [read_command(command) for command in written['commands']]\n"
         "configuration = Configuration(**written['configuration'])\n"

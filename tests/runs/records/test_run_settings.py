@@ -6,11 +6,11 @@ import pytest
 
 from svsa.actuators.installed import get_mechanism
 from svsa.actuators.signals import CHANNELS
-from svsa.runs.command import build_command
-from svsa.runs.configuration import Configuration, Lane, LaneSetting
-from svsa.runs.design_file import load_prototype
-from svsa.runs.experiment import build_actuator_experiment
-from svsa.runs.paper import get_figure
+from svsa.runs.definition.command import build_command
+from svsa.runs.definition.configuration import Configuration, Lane, LaneSetting
+from svsa.runs.definition.design_file import load_prototype
+from svsa.runs.definition.experiment import build_actuator_experiment
+from svsa.runs.definition.paper import get_figure
 from svsa.runs.records.header import RecordHeader
 from svsa.runs.records.settings import RunSettings, describe_settings
 from svsa.simulation.plant.effects import RIG

@@ -11,7 +11,7 @@ import pytest
 
 import svsa
 from svsa.actuators.signals import CHANNEL_NAMES, CHANNELS
-from svsa.runs.command import ApplyLoad, Set, build_command
+from svsa.runs.definition.command import ApplyLoad, Set, build_command
 from svsa.runs.records.reader import open_record
 from svsa.runs.records.recorder import Recorder
 from svsa.runs.result.channels import ChannelName, Channels

@@ -9,8 +9,8 @@ import pytest
 
 import svsa
 from svsa.actuators.signals import CHANNEL_NAMES, CHANNELS
-from svsa.runs.command import Set
-from svsa.runs.run import Run
+from svsa.runs.definition.command import Set
+from svsa.runs.execution.run import Run
 
 
 @pytest.fixture(scope="module")
@@ -65,7 +65,9 @@ def test_dataset_has_units_and_is_unchanged_by_a_file(result, tmp_path):
     assert data.torque1_nm.attrs["units"] == "N·m"
     assert data.time_s.attrs["units"] == "s"
     assert (
-        svsa.runs.configuration.Configuration.model_validate_json(data.attrs["configuration"])
+        svsa.runs.definition.configuration.Configuration.model_validate_json(
+            data.attrs["configuration"]
+        )
         == result.configuration
     )
     for name, values in data.variables.items():

@@ -7,9 +7,9 @@ from hypothesis import settings
 from hypothesis import strategies as st
 
 import svsa
-from svsa.runs.command import COMMANDS, OF_ARM, build_command, read_command
-from svsa.runs.configuration import Configuration, LaneSetting
-from svsa.runs.replay import simulate_again
+from svsa.runs.definition.command import COMMANDS, OF_ARM, build_command, read_command
+from svsa.runs.definition.configuration import Configuration, LaneSetting
+from svsa.runs.execution.replay import simulate_again
 from svsa.simulation.plant.effects.current_lag import CurrentLag
 from svsa.simulation.plant.effects.friction import Friction
 from svsa.simulation.plant.effects.gravity import LinkGravity

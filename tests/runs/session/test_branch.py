@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import svsa
-from svsa.runs.command import ApplyLoad
-from svsa.runs.replay import build_run_at
+from svsa.runs.definition.command import ApplyLoad
+from svsa.runs.execution.replay import build_run_at
 from svsa.runs.session.simulated import SimulatedSession
 
 from .scripts import collect, play, play_busy_session, read, scripted, scripts, wake_sizes, write

@@ -8,8 +8,8 @@ import pytest
 import svsa
 from svsa.actuators.signals import CHANNEL_INDEX
 from svsa.hardware.realtime.configuration import check_takes_no_time
-from svsa.runs.command import build_command, read_command
-from svsa.runs.replay import simulate_again
+from svsa.runs.definition.command import build_command, read_command
+from svsa.runs.execution.replay import simulate_again
 from svsa.simulation.reference.kinds.series import MAX_ROWS
 
 from .sessions import build_configuration, build_session, read_samples

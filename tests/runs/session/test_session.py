@@ -5,9 +5,9 @@ import pytest
 
 import svsa
 from svsa.actuators.faults import label_fault
-from svsa.runs import events
-from svsa.runs.command import ApplyLoad, Set
+from svsa.runs.definition.command import ApplyLoad, Set
 from svsa.runs.session.clock import LONGEST_BACKLOG_S
+from svsa.runs.timeline import events
 
 from .sessions import PULSE, build_session, list_events, read_samples
 

@@ -4,9 +4,17 @@ import numpy as np
 import pytest
 
 import svsa
-from svsa.runs import events
-from svsa.runs.command import COMMANDS, OF_ARM, ApplyLoad, RemoveLoad, Set, Stop, build_command
+from svsa.runs.definition.command import (
+    COMMANDS,
+    OF_ARM,
+    ApplyLoad,
+    RemoveLoad,
+    Set,
+    Stop,
+    build_command,
+)
 from svsa.runs.session.session import remove_loads
+from svsa.runs.timeline import events
 
 from .sessions import PULSE, build_session, list_events, read_samples
 

@@ -5,8 +5,8 @@ import pytest
 
 import svsa
 from svsa.actuators.signals import CHANNEL_INDEX
-from svsa.runs.command import ApplyLoad, RemoveLoad, Set, read_command
-from svsa.runs.replay import replay
+from svsa.runs.definition.command import ApplyLoad, RemoveLoad, Set, read_command
+from svsa.runs.execution.replay import replay
 from svsa.runs.session.session import remove_loads
 
 from .sessions import PULSE, build_session, list_events, read_samples

@@ -11,7 +11,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from svsa.runs.paper import get_figure
+from svsa.runs.definition.paper import get_figure
 from svsa.runs.records.catalogue.runs import Catalogue
 from svsa.runs.session.simulated import SimulatedSession
 from svsa_server.access import audit

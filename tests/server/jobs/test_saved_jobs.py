@@ -11,7 +11,7 @@ import pytest
 from svsa.evaluation.falsifier.file import read_adversary
 from svsa.evaluation.studies.file import read_study
 from svsa.evaluation.studies.stored import StoredStudy
-from svsa.runs.design_file import load_prototype
+from svsa.runs.definition.design_file import load_prototype
 from svsa_server.jobs import falsifications, gradings, submissions, tunings
 from svsa_server.jobs.job import Job
 from svsa_server.jobs.progress import PROGRESS, JobFolder

@@ -3,7 +3,7 @@
 import pytest
 
 import svsa
-from svsa.runs.design_file import parse_design
+from svsa.runs.definition.design_file import parse_design
 from svsa_server.jobs.heavy_work import RETRY_AFTER_S
 from tests.lab_in_process import run_lab_in_process
 from tests.waiting import follow

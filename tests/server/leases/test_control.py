@@ -13,7 +13,7 @@ from fastapi.routing import APIRoute
 from websockets.sync.client import connect
 
 from svsa.errors import ParameterError
-from svsa.runs.paper import get_figure
+from svsa.runs.definition.paper import get_figure
 from svsa.runs.session.simulated import SimulatedSession
 from svsa_server.app import build_app
 from svsa_server.leases.lease import (

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from svsa.runs.metrics import compute_metrics
+from svsa.runs.metrics.metrics import compute_metrics
 from svsa.runs.records.reader import open_record
 from tests.lab import Lab
 from tests.lab_in_process import run_lab_in_process

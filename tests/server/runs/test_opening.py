@@ -4,9 +4,9 @@ import pytest
 
 import svsa
 from svsa.actuators.installed import list_mechanism_names
-from svsa.runs.arm.experiment import build_arm_experiment
-from svsa.runs.configuration import Configuration
-from svsa.runs.experiment import build_actuator_experiment
+from svsa.runs.definition.arm_experiment import build_arm_experiment
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.definition.experiment import build_actuator_experiment
 from svsa_server.runs.opening import choose_opening
 
 DESIGN = svsa.load_prototype()

@@ -2,7 +2,7 @@
 
 import pytest
 
-from svsa.runs.paper import get_figure
+from svsa.runs.definition.paper import get_figure
 from svsa.runs.records.reader import build_record
 from svsa_server.runs import replay_export
 from tests.runs.records.records import build_header, build_samples

@@ -5,8 +5,8 @@ import math
 import pytest
 
 import svsa
-from svsa.runs.arm.experiment import build_arm_experiment
-from svsa.runs.command import ApplyLoad, RemoveLoad
+from svsa.runs.definition.arm_experiment import build_arm_experiment
+from svsa.runs.definition.command import ApplyLoad, RemoveLoad
 from svsa_scene.arm_pose import TipLoad, Wall
 from svsa_server.runs.tip_load import sum_tip_loads, trace_tip_loads
 

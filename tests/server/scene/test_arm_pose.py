@@ -5,8 +5,8 @@ import math
 import pytest
 
 import svsa
-from svsa.runs.arm.experiment import build_arm_experiment
-from svsa.runs.command import ApplyLoad, Set
+from svsa.runs.definition.arm_experiment import build_arm_experiment
+from svsa.runs.definition.command import ApplyLoad, Set
 from svsa.runs.session.simulated import SimulatedSession
 from svsa_scene.arm_pose import ArmPose, TipLoad, Wall
 from svsa_server.scene.bridge import SceneBridge

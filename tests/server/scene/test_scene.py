@@ -7,7 +7,7 @@ import msgspec
 import pytest
 import websockets
 
-from svsa.runs.paper import get_figure
+from svsa.runs.definition.paper import get_figure
 from svsa_scene.linkage import RADIUS, compute_linkage
 from tests.server.scene.poses import make_pose
 from tests.server.scene.viewed_lab import (

@@ -15,8 +15,8 @@ from svsa.hardware.safety.machine import BenchStatus
 from svsa.hardware.session import supervised_loop
 from svsa.hardware.session.run import BenchRun
 from svsa.hardware.session.session import BenchSession
-from svsa.runs.paper import get_figure
-from svsa.runs.run import Start
+from svsa.runs.definition.paper import get_figure
+from svsa.runs.execution.run import Start
 from svsa.simulation.loop.lane import AT_REST
 from svsa_server.sessions.waiting import pause
 from tests.hardware.wired_bench import EMULATOR_BENCH

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from svsa.actuators.installed import get_mechanism
-from svsa.runs.experiment import build_default_load, choose_stiffness
+from svsa.runs.definition.experiment import build_default_load, choose_stiffness
 from tests.server.sessions.bench_lab import BenchLab, run_bench_lab
 from tests.waiting import wait_until
 

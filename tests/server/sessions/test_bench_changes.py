@@ -15,8 +15,8 @@ from svsa.hardware.realtime.loss import Loss
 from svsa.hardware.safety.machine import BenchStatus
 from svsa.hardware.session import commands
 from svsa.hardware.session.session import BenchSession
-from svsa.runs.command import ApplyLoad, Set, Stop
-from svsa.runs.configuration import Lane
+from svsa.runs.definition.command import ApplyLoad, Set, Stop
+from svsa.runs.definition.configuration import Lane
 from svsa.simulation.plant.loads.series import SeriesLoad
 from svsa_server.routes.lab import settings
 from svsa_server.schemas.lab.gain import GainsRequest

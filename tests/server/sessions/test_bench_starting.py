@@ -12,7 +12,7 @@ from rich.console import Console
 
 from svsa.errors import StateError
 from svsa.hardware.session.session import BenchSession
-from svsa.runs.command import Set
+from svsa.runs.definition.command import Set
 from svsa_server.sessions.bench_start import open_bench
 from svsa_server.sessions.hosted import HostedSession
 from svsa_server.sessions.state import build_state

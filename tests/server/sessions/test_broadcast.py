@@ -6,9 +6,9 @@ import random
 import pytest
 
 from svsa.control.observers.disturbance import ObserverBandwidth
-from svsa.runs.command import ApplyLoad, Command, Set
-from svsa.runs.configuration import Lane
-from svsa.runs.paper import get_figure
+from svsa.runs.definition.command import ApplyLoad, Command, Set
+from svsa.runs.definition.configuration import Lane
+from svsa.runs.definition.paper import get_figure
 from svsa.runs.session.simulated import SimulatedSession
 from svsa.simulation.plant.loads.paper import PaperLoad
 from svsa_server.leases.lease import Holder, asking

@@ -8,7 +8,7 @@ import pytest
 
 import svsa
 from svsa.analysis.identification.excitation import EXCITATION, EXCITATION_DURATION_S
-from svsa.runs.design_file import write_design
+from svsa.runs.definition.design_file import write_design
 from svsa.runs.records.reader import open_record
 from tests.lab import Lab, run_lab
 from tests.waiting import follow

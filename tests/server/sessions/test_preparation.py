@@ -17,10 +17,10 @@ from tests.lab_in_process import run_lab_in_process
 LOADS_NOTHING = """
 from svsa.actuators.faults import FAULT_CODES
 from svsa.numerics.code_cache import SharedCache
-from svsa.runs.arm.run import build_run
-from svsa.runs.command import Set
-from svsa.runs.configuration import Lane
-from svsa.runs.fault import build_fault
+from svsa.runs.execution.arm_run import build_run
+from svsa.runs.definition.command import Set
+from svsa.runs.definition.configuration import Lane
+from svsa.runs.execution.fault import build_fault
 from svsa.runs.session.simulated import SimulatedSession
 from svsa.simulation.plant.effects import Effects
 from svsa_server.schemas.lab.opening import FromActuator, FromArm

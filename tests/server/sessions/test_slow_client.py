@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from svsa.runs.paper import get_figure
+from svsa.runs.definition.paper import get_figure
 from svsa.runs.session.simulated import SimulatedSession
 from svsa_server.access.roles import ANY_USER
 from svsa_server.sessions import stream

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from websockets.sync.client import ClientConnection, connect
 
-from svsa.runs.paper import get_figure
+from svsa.runs.definition.paper import get_figure
 from svsa.runs.session.simulated import SimulatedSession
 from svsa_server.schemas.lab.stream import StreamRequest
 from svsa_server.sessions.cursor import SampleCursor

@@ -17,7 +17,7 @@ from svsa.hardware.realtime.launch import BenchError, BenchProcesses
 from svsa.hardware.realtime.link import Link, build_links
 from svsa.hardware.session import supervised_loop
 from svsa.hardware.session.supervised_loop import SupervisedLoop
-from svsa.runs.paper import get_figure
+from svsa.runs.definition.paper import get_figure
 from svsa_server.sessions import laboratory
 from svsa_server.sessions.laboratory import EmulatorOperator
 from svsa_server.sessions.waiting import pause, run_waiting

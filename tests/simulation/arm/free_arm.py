@@ -6,8 +6,8 @@ from svsa.actuators.dynamics import ExternalLoad, compute_deflection
 from svsa.actuators.elasticity import compute_coordinate
 from svsa.actuators.signals import State, Torque
 from svsa.actuators.spring import compute_elastic_energy
-from svsa.runs.arm.experiment import build_arm_experiment
-from svsa.runs.arm.run import ArmRun
+from svsa.runs.definition.arm_experiment import build_arm_experiment
+from svsa.runs.execution.arm_run import ArmRun
 from svsa.simulation.arm.plant import compute_arm_rate, integrate_arm
 from svsa.simulation.arm.tip_loads import compute_tip_action
 

@@ -8,8 +8,8 @@ from svsa.actuators.dynamics import build_actuator
 from svsa.actuators.linearization import compute_linearization, solve_decoupling
 from svsa.actuators.signals import Disturbance, Positions, Reference, State, Torque
 from svsa.evaluation.metrics import summarize_result
-from svsa.runs.batch import run_group
-from svsa.runs.blocks import compute_start_ratio
+from svsa.runs.execution.batch import run_group
+from svsa.runs.execution.blocks import compute_start_ratio
 from svsa.simulation.loop.tally import Tally
 from tests.runs.session.sessions import EVERY_EFFECT, build_configuration
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import svsa
-from svsa.runs.batch import run_configurations
+from svsa.runs.execution.batch import run_configurations
 from svsa.simulation.loop import slices
 from svsa.simulation.loop.slices import cut
 from tests.exhaustive import exhaust

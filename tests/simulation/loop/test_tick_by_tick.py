@@ -15,8 +15,8 @@ from svsa.control.laws.feedback_linearization import build_gains, compute_feedba
 from svsa.control.laws.ndobc import compute_ndobc
 from svsa.control.limits import limit_torque
 from svsa.control.observers.disturbance import update_disturbance_estimate
-from svsa.runs.blocks import bind_law, build_blocks
-from svsa.runs.run import Run
+from svsa.runs.execution.blocks import bind_law, build_blocks
+from svsa.runs.execution.run import Run
 from svsa.simulation.loop.lane import Action, Inputs, LaneState, build_lane_state
 from svsa.simulation.loop.loop import advance as advance_lane
 from svsa.simulation.loop.loop import (

@@ -9,8 +9,8 @@ import pytest
 
 import svsa
 from svsa.actuators.dynamics import build_actuator
-from svsa.runs.command import Set
-from svsa.runs.run import Run
+from svsa.runs.definition.command import Set
+from svsa.runs.execution.run import Run
 from svsa.simulation.plant.effects import EFFECTS
 from svsa.simulation.plant.effects.effect import Surroundings
 from svsa.simulation.plant.effects.encoders import Encoders

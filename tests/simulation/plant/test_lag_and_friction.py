@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 import svsa
 from svsa.actuators.signals import CHANNEL_INDEX, State, Torque
 from svsa.control.call import build_call
-from svsa.runs.blocks import bind_law, build_blocks
-from svsa.runs.run import Run
+from svsa.runs.execution.blocks import bind_law, build_blocks
+from svsa.runs.execution.run import Run
 from svsa.simulation.loop.lane import AT_REST, NO_TORQUE, UNDISTURBED, UNMOVED, Inputs
 from svsa.simulation.loop.loop import decide
 from svsa.simulation.loop.loop import delay as delay_torque

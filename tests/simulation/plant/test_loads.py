@@ -9,8 +9,8 @@ import pytest
 import svsa
 from svsa.actuators.dynamics import ExternalLoad, compute_acceleration, compute_internal_torque
 from svsa.actuators.signals import CHANNEL_INDEX, Torque
-from svsa.runs.configuration import MAX_LOADS
-from svsa.runs.run import Run
+from svsa.runs.definition.configuration import MAX_LOADS
+from svsa.runs.execution.run import Run
 from svsa.simulation.plant.load_table import build_load_table, compute_load, schedule_load
 from svsa.simulation.plant.loads import LOADS
 from tests.actuators.prototype import PLANT, build_state, record

@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import svsa
-from svsa.runs.command import Set
-from svsa.runs.run import Run
+from svsa.runs.definition.command import Set
+from svsa.runs.execution.run import Run
 from svsa.simulation.reference.kinds import compute_start_value, get_range
 from svsa.simulation.reference.kinds.sine import compute_sine
 from svsa.simulation.reference.polynomials import compute_fade

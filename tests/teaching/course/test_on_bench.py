@@ -7,9 +7,9 @@ import pytest
 
 from svsa.actuators.signals import CHANNEL_INDEX, CHANNELS
 from svsa.errors import ParameterError
-from svsa.runs.command import ApplyLoad, Command, Set, Stop
-from svsa.runs.configuration import Configuration
-from svsa.runs.paper import get_figure
+from svsa.runs.definition.command import ApplyLoad, Command, Set, Stop
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.definition.paper import get_figure
 from svsa.runs.records.header import PlantKind
 from svsa.runs.result.result import Result
 from svsa.teaching.course.criterion import CriterionResult

@@ -8,7 +8,7 @@ import pytest
 
 import svsa
 from svsa.actuators.dynamics import build_actuator
-from svsa.runs.blocks import compute_start_ratio
+from svsa.runs.execution.blocks import compute_start_ratio
 from svsa.teaching.isolation import confinement, system_calls
 from svsa.teaching.isolation.confinement import Bounds, confine, leave_open
 from svsa.teaching.isolation.probe import check_isolation

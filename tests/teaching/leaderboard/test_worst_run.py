@@ -9,7 +9,7 @@ from svsa.errors import ParameterError, StateError
 from svsa.evaluation.ranking.entry import DECLARED
 from svsa.evaluation.ranking.entry import build_entry as build_ranking_entry
 from svsa.evaluation.ranking.scenarios import build_fixed_scenarios, find_scenario
-from svsa.runs.blocks import compute_start_ratio
+from svsa.runs.execution.blocks import compute_start_ratio
 from svsa.runs.result.simulate import simulate
 from svsa.teaching.grading.law_runs import run_law
 from svsa.teaching.isolation import process

@@ -8,8 +8,8 @@ from fastapi import Body, Path, Request
 from starlette.datastructures import URL
 
 from svsa.errors import StateError, SvsaError
-from svsa.runs.command import Command, Set
-from svsa.runs.configuration import Configuration
+from svsa.runs.definition.command import Command, Set
+from svsa.runs.definition.configuration import Configuration
 from svsa_server.access.authentication import ClassAuthentication
 from svsa_server.access.origin import EVERYWHERE, find_outward_address
 from svsa_server.access.owned import Owned

@@ -5,8 +5,8 @@ from typing import Annotated
 from fastapi import Body, Depends
 
 from svsa.errors import StateError
-from svsa.runs.arm.experiment import ARMS
-from svsa.runs.command import Set
+from svsa.runs.definition.arm_experiment import ARMS
+from svsa.runs.definition.command import Set
 from svsa_server.access.permissions import OBSERVER, OPERATOR, allow
 from svsa_server.routes.depends import CHANGED, REFUSALS, NamedSession, check_unchanged
 from svsa_server.routing import build_router

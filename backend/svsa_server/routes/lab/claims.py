@@ -8,8 +8,8 @@ from pydantic import BaseModel, Field
 from svsa.actuators.signals import CHANNEL_INDEX
 from svsa.errors import StateError
 from svsa.inputs.checked import FiniteOrNull
-from svsa.runs.claims import CLAIM_LAWS, judge_claim, measure_claim
-from svsa.runs.metrics import MEASURED
+from svsa.runs.metrics.claims import CLAIM_LAWS, judge_claim, measure_claim
+from svsa.runs.metrics.metrics import MEASURED
 from svsa_server.access.permissions import OBSERVER, allow
 from svsa_server.routes.depends import REFUSALS, NamedSession
 from svsa_server.routing import build_router

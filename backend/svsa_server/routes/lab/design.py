@@ -10,7 +10,7 @@ from svsa.control.gains import Gains, compute_roots
 from svsa.control.installed import get_title
 from svsa.errors import ParameterError
 from svsa.inputs.checked import BY_KIND
-from svsa.runs.configuration import Configuration
+from svsa.runs.definition.configuration import Configuration
 from svsa.runs.session.session import Session
 from svsa_server.access.permissions import OBSERVER, allow
 from svsa_server.routes.depends import BUSY, REFUSALS, NamedSession, Work

@@ -4,8 +4,8 @@ from typing import Annotated
 
 from fastapi import Body, Depends, Request
 
-from svsa.runs.command import Set
-from svsa.runs.design_file import PROTOTYPE_FILE, parse_design
+from svsa.runs.definition.command import Set
+from svsa.runs.definition.design_file import PROTOTYPE_FILE, parse_design
 from svsa_server.access.permissions import OPERATOR, allow
 from svsa_server.routes.depends import (
     CHANGED,

@@ -5,7 +5,7 @@ from typing import Annotated
 from fastapi import Body, Query
 
 from svsa.errors import StateError
-from svsa.runs.command import ApplyLoad, JointNumber, RemoveLoad
+from svsa.runs.definition.command import ApplyLoad, JointNumber, RemoveLoad
 from svsa.runs.session.session import remove_loads
 from svsa.simulation.plant.loads import Load
 from svsa.simulation.plant.loads.mass import PAPER_ARM_M, PAPER_MASS_KG

@@ -13,8 +13,8 @@ from svsa.control.observers.disturbance import ObserverBandwidth
 from svsa.control.parameters import LawParameters
 from svsa.errors import ParameterError
 from svsa.inputs.checked import Checked
-from svsa.runs.command import JointNumber, Set
-from svsa.runs.configuration import LaneSetting
+from svsa.runs.definition.command import JointNumber, Set
+from svsa.runs.definition.configuration import LaneSetting
 from svsa.simulation.plant.effects import Effects
 from svsa.simulation.reference.kinds import PositionReference, StiffnessReference
 from svsa_server.access.permissions import OBSERVER, OPERATOR, allow

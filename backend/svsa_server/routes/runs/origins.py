@@ -4,8 +4,8 @@ from collections.abc import Iterable, Mapping
 
 from fastapi import Request
 
-from svsa.runs.command import Command
-from svsa.runs.configuration import Configuration, Design
+from svsa.runs.definition.command import Command
+from svsa.runs.definition.configuration import Configuration, Design
 from svsa.runs.records import resimulation
 from svsa.runs.records.catalogue.entry import RunEntry
 from svsa.runs.records.header import BranchPoint, PlantKind, RecordError

@@ -9,7 +9,7 @@ from fastapi.responses import Response
 
 from svsa.actuators.signals import CHANNEL_NAMES, PLOTTED
 from svsa.errors import ParameterError, Violation
-from svsa.runs.metrics import MEASURED, Metrics, RunningMetrics
+from svsa.runs.metrics.metrics import MEASURED, Metrics, RunningMetrics
 from svsa.runs.records.decimation import decimate
 from svsa.runs.records.measured_window import trace_record
 from svsa.runs.records.reader import Record

@@ -12,7 +12,7 @@ from svsa.actuators.reach import find_only_stiffness
 from svsa.analysis.datasheet.measure import Datasheet
 from svsa.analysis.datasheet.rows import list_published, list_rows
 from svsa.control.installed import PAPERS_LAW
-from svsa.runs.experiment import build_default_load, choose_stiffness
+from svsa.runs.definition.experiment import build_default_load, choose_stiffness
 from svsa.simulation.plant.loads.constant import ConstantLoad
 from svsa_server.compiled_loops import find_compiling_s, is_compiled_for
 from svsa_server.schemas.lab.parameter import ParameterState, list_parameters

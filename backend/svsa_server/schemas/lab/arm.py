@@ -8,8 +8,8 @@ from svsa.actuators.arm.parameters import ArmParameters
 from svsa.control.arm_payload import PayloadAdaptation
 from svsa.control.installed import PAPERS_LAW, InstalledLaw
 from svsa.inputs.checked import Checked, Flag, Whole, quantity
-from svsa.runs.arm.experiment import ARMS, build_arm_experiment
-from svsa.runs.configuration import ArmSetup, Configuration
+from svsa.runs.definition.arm_experiment import ARMS, build_arm_experiment
+from svsa.runs.definition.configuration import ArmSetup, Configuration
 from svsa.simulation.arm.tip_reference import TipReference
 from svsa.simulation.plant.effects import IDEAL, Effects
 from svsa_server.schemas.lab.law import InstalledLane

@@ -6,7 +6,7 @@ from pydantic import BaseModel, Field
 
 from svsa.actuators.faults import FAULTS
 from svsa.inputs.checked import Checked
-from svsa.runs.paper import FIGURES
+from svsa.runs.definition.paper import FIGURES
 from svsa.simulation.plant.effects import EFFECTS, PRESETS, Effects, describe_preset
 from svsa.simulation.plant.effects.effect import Effect, PresetName
 from svsa.simulation.plant.loads import LOADS

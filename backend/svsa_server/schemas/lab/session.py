@@ -6,10 +6,10 @@ from pydantic import BaseModel, Field
 
 from svsa.control.installed import PAPERS_LAW, InstalledLaw
 from svsa.inputs.checked import Checked, Flag, Number, Whole, quantity
-from svsa.runs.configuration import MAX_LANES, Configuration, Design
-from svsa.runs.events import Event
-from svsa.runs.paper import get_figure
+from svsa.runs.definition.configuration import MAX_LANES, Configuration, Design
+from svsa.runs.definition.paper import get_figure
 from svsa.runs.records.header import BranchPoint
+from svsa.runs.timeline.events import Event
 from svsa.simulation.plant.effects import IDEAL, Effects
 from svsa.simulation.plant.loads import Load
 from svsa_server.schemas.hardware.bench import BenchState

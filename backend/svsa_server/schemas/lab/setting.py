@@ -12,7 +12,7 @@ from svsa.control.installed import InstalledLaw
 from svsa.control.observers.disturbance import ObserverBandwidth
 from svsa.errors import ParameterError
 from svsa.inputs.checked import Checked, quantity
-from svsa.runs.configuration import MAX_LANES, Lane
+from svsa.runs.definition.configuration import MAX_LANES, Lane
 from svsa.simulation.arm.tip_reference import TipReference
 from svsa.simulation.plant.effects import Effects
 from svsa.simulation.plant.effects.effect import PresetName

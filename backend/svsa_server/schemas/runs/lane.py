@@ -4,8 +4,8 @@ from typing import Literal
 
 from pydantic import BaseModel, Field
 
-from svsa.runs.metrics import Metrics
-from svsa.runs.timeline import WindowKind
+from svsa.runs.metrics.metrics import Metrics
+from svsa.runs.timeline.timeline import WindowKind
 
 
 class Period(BaseModel):

@@ -7,8 +7,8 @@ from pydantic import BaseModel, ConfigDict, Field, model_validator
 from svsa.actuators.signals import Channel
 from svsa.errors import ParameterError, Violation
 from svsa.inputs.checked import Checked, quantity
-from svsa.runs.command import Command
-from svsa.runs.metrics import Metrics
+from svsa.runs.definition.command import Command
+from svsa.runs.metrics.metrics import Metrics
 from svsa.runs.records.catalogue.entry import RunState
 from svsa.runs.records.difference import Difference
 from svsa.runs.records.header import (

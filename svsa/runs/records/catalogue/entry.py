@@ -9,7 +9,7 @@ from typing import Any, Literal, NamedTuple
 import msgspec
 
 from svsa.errors import Fault, ParameterError, SvsaError, Violation
-from svsa.runs.metrics import Metrics
+from svsa.runs.metrics.metrics import Metrics
 from svsa.runs.records.former_words import SETTINGS, translate_fields
 from svsa.runs.records.header import BranchPoint, PlantKind, describe_newer
 from svsa.runs.records.measured_window import MeasuredWindow

@@ -8,7 +8,7 @@ import pytest
 
 from svsa.errors import ParameterError, StateError
 from svsa.inputs.data_folder import find_data_folder
-from svsa.runs.metrics import compute_metrics
+from svsa.runs.metrics.metrics import compute_metrics
 from svsa.runs.records.catalogue.entry import UnknownRunError
 from svsa.runs.records.catalogue.runs import Catalogue
 from svsa.runs.records.header import HEADER_FILE, build_run_id, is_run_id

@@ -6,8 +6,8 @@ import httpx
 import numpy as np
 import pytest
 
-from svsa.runs.configuration import Lane
-from svsa.runs.paper import get_figure
+from svsa.runs.definition.configuration import Lane
+from svsa.runs.definition.paper import get_figure
 from svsa.runs.records.catalogue.runs import Catalogue
 from svsa.runs.records.writer import write_record
 from svsa.simulation.plant.loads.mass import MassLoad

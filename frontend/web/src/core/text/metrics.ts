@@ -1,4 +1,4 @@
-/** The metrics of a window of a run, as the server defines them (`svsa.runs.metrics.Metrics`). */
+/** The metrics of a window of a run, as the server defines them (`svsa.runs.metrics.metrics.Metrics`). */
 
 const recovery =
   "Time from the start of the window until the error has stayed within 2 % of its peak for 0.5 s. Later changes do not affect it.";

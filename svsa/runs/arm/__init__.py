@@ -1,1 +1,0 @@
-"""Runs of an arm: configuration and run."""

@@ -1,0 +1,1 @@
+"""Execution of a run: in slices, tick by tick, in batches, and again from its commands."""

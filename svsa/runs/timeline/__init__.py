@@ -1,0 +1,1 @@
+"""A run over time, from its configuration and commands: loads, controllers, windows, events."""
