@@ -17,7 +17,7 @@ R = TypeVar("R")
 def run_parts(
     workers: int, run: Callable[[P], R], parts: Iterable[P]
 ) -> Generator[tuple[P, R], None, None]:
-    """Yield each part with its result, in the order of completion.
+    """Yield each part with its result, in the order of completion, if together in that of request.
 
     Args:
         workers: Number of processes of low priority; 0 for this one.
@@ -46,12 +46,12 @@ def run_parts(
                 if not begun:
                     break
                 try:
-                    finished, _ = wait(begun, return_when=FIRST_COMPLETED)
+                    wait(begun, return_when=FIRST_COMPLETED)
                 except KeyboardInterrupt as error:
                     interruption = error
                     begun = {future: part for future, part in begun.items() if not future.cancel()}
                     continue
-                for future in finished:
+                for future in [future for future in begun if future.done()]:
                     yield begun.pop(future), future.result()
         finally:
             pool.shutdown(cancel_futures=True)
