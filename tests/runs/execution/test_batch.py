@@ -155,6 +155,7 @@ def test_every_run_has_its_own_references_and_loads(drawn: list) -> None:
     compare([build("fl_integral", **one) for one in drawn])
 
 
+@pytest.mark.exhaustive
 def test_common_values_of_runs_are_stored_once() -> None:
     points = {"time_s": (0.0, 0.1, 0.2), "torque_nm": ((0.0, 0.0, 0.0), (0.2, 0, 0), (0.1, 0, 0))}
     shared, other = (svsa.SeriesLoad(start_s=start, **points) for start in (0.05, 0.1))

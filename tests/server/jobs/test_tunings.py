@@ -8,6 +8,7 @@ from svsa_server.jobs.heavy_work import RETRY_AFTER_S
 from tests.lab_in_process import run_lab_in_process
 from tests.waiting import follow
 
+pytestmark = pytest.mark.exhaustive
 JOBS = "/api/v1/jobs"
 
 
@@ -17,7 +18,6 @@ def lab():
         yield lab.client
 
 
-@pytest.mark.exhaustive
 def test_tuning_is_followed_to_its_end_and_applied_to_a_session(lab):
     asked = {"kind": "tuning", "law": "fl_integral", "budget": 2, "seed": 1}
     begun = lab.post(JOBS, json=asked)
@@ -52,7 +52,6 @@ def test_tuning_is_followed_to_its_end_and_applied_to_a_session(lab):
     assert (listed["id"], listed["result"]["candidates"]) == (name, [])
 
 
-@pytest.mark.exhaustive
 def test_cancelled_tuning_keeps_its_best_candidate(lab):
     """It starts from the session's own design if requested."""
     beta = {"bandwidth_rad_per_s": [44.0, 44.0, 44.0]}
