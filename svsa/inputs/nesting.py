@@ -1,7 +1,5 @@
 """The depth of nested lists and tables, which users choose freely in JSON and TOML."""
 
-import contextlib
-import json
 from typing import Any
 
 DEEPEST = 100
@@ -30,22 +28,3 @@ def is_too_deep(value: Any) -> bool:
         if not level:
             return False
     return True
-
-
-def load_json(text: str | bytes) -> Any:
-    """Parse the JSON of a stored file, which may be damaged.
-
-    Args:
-        text: The content of the file.
-
-    Returns:
-        Its value.
-
-    Raises:
-        ValueError: If it is not JSON, or is nested too deeply.
-    """
-    with contextlib.suppress(RecursionError):
-        value = json.loads(text)
-        if not is_too_deep(value):
-            return value
-    raise ValueError(f"nested in more than {DEEPEST} levels")

@@ -10,8 +10,8 @@ from typing import Generic, TypeVar
 
 from svsa.errors import ParameterError, Violation
 from svsa.inputs.checked import Checked
-from svsa.inputs.nesting import load_json
 from svsa.inputs.set_aside import set_aside
+from svsa.inputs.stored_file import read_json
 from svsa.runs.records.former_words import translate_results
 from svsa.runs.records.header import replace_file
 
@@ -81,7 +81,7 @@ class ClassFolder(Generic[T]):
 
     def _read(self, path: Path) -> T:
         try:
-            return self._kind.model_validate(translate_results(load_json(path.read_bytes())))
+            return self._kind.model_validate(translate_results(read_json(path)))
         except (OSError, ValueError, TypeError, AttributeError) as error:
             name = self._kind.__name__.lower()
             raise ParameterError(Violation(name, path, "", f"one of svsa ({error})")) from None

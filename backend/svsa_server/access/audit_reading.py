@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from starlette.routing import compile_path
 
-from svsa.inputs.nesting import load_json
+from svsa.inputs.stored_file import load_json
 from svsa_server.access.audit import FILE
 from svsa_server.leases.lease import CHANGING
 

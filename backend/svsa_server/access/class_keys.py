@@ -17,7 +17,7 @@ from typing import Literal, NamedTuple, get_args
 from itsdangerous import BadData, URLSafeTimedSerializer
 
 from svsa.errors import SecurityError
-from svsa.inputs.nesting import load_json
+from svsa.inputs.stored_file import read_json
 from svsa_server.access.roles import Person, Role
 
 FILE = "class.json"
@@ -55,7 +55,7 @@ class ClassKeys:
     def __init__(self, path: Path) -> None:
         self._path = path
         try:
-            kept = load_json(path.read_text(encoding="utf-8"))
+            kept = read_json(path)
             self._salt, self._code = (base64.b64decode(kept[name]) for name in ("salt", "code"))
             self._token = bytes.fromhex(kept["instructor_sha256"])
             self._key: str = kept["signing_key"]
@@ -98,7 +98,7 @@ class ClassKeys:
         """Create a new class code; members stay, and the old code becomes invalid."""
         code = _draw_code(_CODE_LENGTH)
         hashed = _hash_with_salt(code)
-        kept = load_json(self._path.read_text(encoding="utf-8"))
+        kept = read_json(self._path)
         _write(self._path, kept | hashed)
         self._salt, self._code = (base64.b64decode(hashed[name]) for name in ("salt", "code"))
         return code

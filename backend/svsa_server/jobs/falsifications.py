@@ -15,7 +15,7 @@ from svsa.evaluation.falsifier.measure import list_baselines, run_scenario
 from svsa.evaluation.falsifier.scenario import LoadScenario
 from svsa.evaluation.falsifier.trace import trace_scenario
 from svsa.evaluation.studies.tables import make_plain
-from svsa.inputs.nesting import load_json
+from svsa.inputs.stored_file import read_json
 from svsa.runs.records.decimation import decimate
 from svsa.runs.records.header import replace_file
 from svsa_server.jobs.progress import JobFolder
@@ -86,9 +86,7 @@ def read_found(folder: Path) -> Found | None:
     path = find_file(folder)
     if path is None:
         return None
-    steps, outcomes = (
-        load_json((folder / name).read_text(encoding="utf-8")) for name in (_STEPS, _OUTCOMES)
-    )
+    steps, outcomes = (read_json(folder / name) for name in (_STEPS, _OUTCOMES))
     return Found(read_scenario(path), steps, outcomes)
 
 

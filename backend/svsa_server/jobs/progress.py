@@ -6,7 +6,7 @@ from collections import deque
 from pathlib import Path
 from typing import NamedTuple
 
-from svsa.inputs.nesting import load_json
+from svsa.inputs.stored_file import read_json
 from svsa.runs.records.header import replace_file
 
 PROGRESS, STOP = "progress.json", "stop"
@@ -67,7 +67,7 @@ class JobFolder:
 def read_progress(folder: Path) -> Progress:
     """Read the last progress report of the worker in this folder."""
     try:
-        done, total, rate_per_s = load_json((folder / PROGRESS).read_bytes())
+        done, total, rate_per_s = read_json(folder / PROGRESS)
         return Progress(int(done), int(total), rate_per_s and float(rate_per_s))
     except (OSError, ValueError, TypeError, OverflowError):
         # Before the first report, or damaged after the server was killed.

@@ -16,7 +16,7 @@ from pydantic import TypeAdapter
 
 from svsa.evaluation.studies.stored import StoredStudy
 from svsa.inputs.file_lock import try_lock
-from svsa.inputs.nesting import load_json
+from svsa.inputs.stored_file import read_json
 from svsa.runs.records.header import replace_file
 from svsa_server.jobs import falsifications, tunings
 from svsa_server.jobs.progress import STOP, read_progress
@@ -99,7 +99,7 @@ def _read(folder: Path) -> dict[str, Any] | None:
         remove_job(folder)
         return None
     try:
-        fields = load_json((folder / FILE).read_bytes())
+        fields = read_json(folder / FILE)
         if not all(isinstance(fields[name], str) for name in _TEXTS) or fields["kind"] not in _NEXT:
             raise ValueError("a field is wrong")
         if fields["problem"] is not None:

@@ -6,7 +6,7 @@ from typing import Any
 
 from svsa.control.installed import get_law
 from svsa.inputs.extras import __version__
-from svsa.inputs.nesting import load_json
+from svsa.inputs.stored_file import load_json, read_file
 from svsa.numerics.compilation import find_fingerprint
 from svsa.runs.records.header import replace_file
 
@@ -84,7 +84,7 @@ def read_lines(path: Path) -> list[Any]:
     """
     if not path.exists():
         return []
-    whole, _, _ = path.read_text(encoding="utf-8").rpartition("\n")
+    whole, _, _ = read_file(path).rpartition(b"\n")
     return [load_json(line) for line in whole.splitlines()]
 
 

@@ -3,9 +3,10 @@
 from pathlib import Path
 from typing import TypeVar
 
-from pydantic import BaseModel, ValidationError
+from pydantic import BaseModel
 
 from svsa.errors import ParameterError, Violation
+from svsa.inputs.stored_file import read_file
 from svsa.runs.records.header import replace_file
 
 M = TypeVar("M", bound=BaseModel)
@@ -27,8 +28,8 @@ def read_results_file(kind: type[M], path: Path, command: str, name: str = "resu
         ParameterError: If the file cannot be read, or is not one of this command.
     """
     try:
-        return kind.model_validate_json(path.read_bytes())
-    except (OSError, ValidationError) as error:
+        return kind.model_validate_json(read_file(path))
+    except (OSError, ValueError) as error:
         bound = f"a file that {command} writes ({str(error).partition(chr(10))[0]})"
         raise ParameterError(Violation(name, path, "", bound)) from None
 

@@ -17,7 +17,7 @@ from svsa.evaluation.studies.study import Study
 from svsa.inputs.data_folder import find_data_folder
 from svsa.inputs.extras import __version__
 from svsa.inputs.file_lock import try_lock
-from svsa.inputs.nesting import load_json
+from svsa.inputs.stored_file import read_json
 from svsa.runs.records.former_words import METRICS, translate_fields
 from svsa.runs.records.header import replace_file
 
@@ -105,7 +105,7 @@ def open_study(name: str, root: Path | None = None) -> StoredStudy:
     root = root or find_root(name)
     folder = root / name
     try:
-        written = load_json((folder / STUDY_FILE).read_text(encoding="utf-8"))
+        written = read_json(folder / STUDY_FILE)
         study = Study(**_translate_definition(written["study"]))
         origin = written["created"], written["version"], written.get("owner", "")
         return StoredStudy(name, study, folder, *origin)
@@ -139,7 +139,7 @@ def read_owner(name: str, root: Path | None = None) -> str | None:
     if not _NAME.fullmatch(name):
         return None
     try:
-        written = load_json(((root or find_root(name)) / name / STUDY_FILE).read_bytes())
+        written = read_json((root or find_root(name)) / name / STUDY_FILE)
     except (OSError, ValueError):
         return None
     owner = written.get("owner", "") if isinstance(written, dict) else None

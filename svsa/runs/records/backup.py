@@ -12,7 +12,7 @@ from pathlib import Path
 
 from svsa.errors import StateError, SvsaError
 from svsa.inputs.extras import __version__
-from svsa.inputs.nesting import load_json
+from svsa.inputs.stored_file import load_json
 
 MANIFEST = "svsa-backup.json"
 FORMAT = 1

@@ -17,7 +17,7 @@ from svsa.actuators.signals import CHANNELS, Channel
 from svsa.errors import ParameterError, SvsaError, Violation
 from svsa.inputs.checked import Checked, Number, Whole, quantity
 from svsa.inputs.extras import __version__
-from svsa.inputs.nesting import load_json
+from svsa.inputs.stored_file import load_json
 from svsa.runs.definition.configuration import Configuration
 from svsa.runs.records.former_words import FIELDS, translate_fields
 

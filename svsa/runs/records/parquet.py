@@ -12,7 +12,7 @@ from typing import IO, Any, NamedTuple
 
 from svsa.errors import Fault
 from svsa.inputs import arrow as pa
-from svsa.inputs.nesting import load_json
+from svsa.inputs.stored_file import load_json
 from svsa.runs.records.bench_start import START_FILE, BenchStart, dump_start
 from svsa.runs.records.former_words import translate_command
 from svsa.runs.records.header import (

@@ -14,8 +14,8 @@ from typing import Any
 
 from svsa.errors import StateError
 from svsa.inputs.checked import Checked, Flag, Number, Whole, quantity
-from svsa.inputs.nesting import load_json
 from svsa.inputs.set_aside import set_aside
+from svsa.inputs.stored_file import read_json
 from svsa.runs.records import former_words
 from svsa.runs.records.former_words import translate_fields
 from svsa.runs.records.header import replace_file
@@ -259,17 +259,14 @@ class ProgressStore:
         path = self._find(person)
         for file in (path, _find_previous(path)):
             try:
-                content = file.read_bytes()
+                exercises = read_json(file).get("exercises", {}).items()
+                return PersonProgress(exercises={name: _translate(at) for name, at in exercises})
             except FileNotFoundError:
                 continue
             except OSError as error:
                 if error.errno not in (errno.EISDIR, errno.ELOOP):
                     raise
                 _report_damage(file, error)
-                continue
-            try:
-                exercises = load_json(content).get("exercises", {}).items()
-                return PersonProgress(exercises={name: _translate(at) for name, at in exercises})
             except (ValueError, AttributeError, TypeError) as error:
                 _report_damage(file, error)
         return PersonProgress()

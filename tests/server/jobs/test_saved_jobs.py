@@ -96,6 +96,8 @@ def test_damaged_files_do_not_stop_the_start(tmp_path: Path) -> None:
         folder.mkdir()
         (folder / FILE).write_bytes(content)
     (tmp_path / "directory" / FILE).mkdir(parents=True)
+    (tmp_path / "pipe").mkdir()
+    os.mkfifo(tmp_path / "pipe" / FILE)
     (tmp_path / "begun").mkdir()
     (tmp_path / "file").write_text("no folder")
     for content in (b"", b"{}", b"[1, 2]", b'["x", 2, 3]', b"\xff"):
