@@ -9,6 +9,7 @@ from collections.abc import Iterator
 import pytest
 
 from svsa_server.access.connections import MAX_HEAD_BYTES
+from tests.benchmarks.attacks import vanish
 from tests.lab import run_lab
 
 HOST = b"Host: 127.0.0.1\r\n"
@@ -116,3 +117,11 @@ def test_headers_are_limited_however_they_arrive(
             time.sleep(0.2)  # most of it is read before the end arrives
             line.sendall(b"\r\n\r\n")
         assert line.recv(65536).startswith(b"HTTP/1.1 %d" % status)
+
+
+@pytest.mark.parametrize("query", [b"", b"?rate_hz=x", b"?client=" + b"x" * 2000])
+def test_client_that_vanishes_after_its_handshake_is_no_error(port: int, query: bytes) -> None:
+    for _ in range(20):
+        line = socket.create_connection(("127.0.0.1", port), timeout=30)
+        line.sendall(shake_hands(path=STREAM + query))
+        vanish(line)

@@ -83,8 +83,9 @@ async def stream_session(websocket: WebSocket, hosted: HostedSession, person: Pe
         request, channels = read_stream_request(query)
         cursor = SampleCursor(hosted.session, request, channels, hosted.batches)
     except ParameterError as error:
-        await websocket.send_text(StreamError(message=str(error)).model_dump_json())
-        await websocket.close(1008)
+        with contextlib.suppress(WebSocketDisconnect, RuntimeError):  # the client has left
+            await websocket.send_text(StreamError(message=str(error)).model_dump_json())
+            await websocket.close(1008)
         return
     asking.set(client)
     with hosted.streamed_to(client):
