@@ -30,7 +30,7 @@ export const checkRun = (exercise: string, step: string, run: string) =>
   );
 export const putLaw = (exercise: string, text: string) =>
   call("put", "/course/{exercise}/law", { path: { exercise }, body: { text } }, WORK_TIMEOUT_MS);
-export const submit = (exercise: string, student: string) =>
+export const submitExercise = (exercise: string, student: string) =>
   call(
     "post",
     "/course/{exercise}/submission",

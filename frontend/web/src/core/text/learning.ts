@@ -105,14 +105,14 @@ export const learningText = {
     openJoint: "Open session of single joint",
     before: "Before the run:",
     above: "The bench's buttons are at the top of the page.",
-    handsEmulated: "The emulator adds the load automatically.",
-    hands: (what: string, hands: readonly { time_s: number; is_on: boolean }[]) =>
-      `By hand at the bench: ${what}; ${hands
+    loadOfEmulator: "The emulator adds the load automatically.",
+    manualLoads: (what: string, loads: readonly { time_s: number; is_on: boolean }[]) =>
+      `By hand at the bench: ${what}; ${loads
         .map(({ time_s: at, is_on: isOn }) => `${isOn ? "on" : "off"} at ${at} s`)
         .join(", ")}. Keep clear of the link before and after.`,
-    handAt: (what: string, isOn: boolean, at: number) =>
+    manualLoadAt: (what: string, isOn: boolean, at: number) =>
       isOn ? `At ${at} s by hand: ${what}.` : `At ${at} s by hand: remove the load.`,
-    handNow: (what: string, isOn: boolean) =>
+    manualLoadNow: (what: string, isOn: boolean) =>
       isOn ? `Now by hand: ${what}.` : "Now by hand: remove the load.",
     cut: {
       control: (time: string) => `You lost control at ${time} s, in the middle of the run.`,

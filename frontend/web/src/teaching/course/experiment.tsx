@@ -47,14 +47,14 @@ export function ExerciseBanner({ exercise }: { exercise: string }) {
 }
 
 /** Time at which the operator adds or removes a load; an emulator does it automatically. */
-function Hands({ of }: { of: Step }) {
+function ManualLoads({ of }: { of: Step }) {
   const now = bench.value;
   const state = session.value;
   if (now === null || of.bench === null || of.bench.manual_loads.length === 0) return null;
-  if (now.emulated) return <p class="hint">{words.handsEmulated}</p>;
-  const { manual_load: what, manual_loads: hands } = of.bench;
+  if (now.emulated) return <p class="hint">{words.loadOfEmulator}</p>;
+  const { manual_load: what, manual_loads: loads } = of.bench;
   if (activeRun.value?.step !== of.name) {
-    return <p class="hint">{words.hands(what, hands)}</p>;
+    return <p class="hint">{words.manualLoads(what, loads)}</p>;
   }
   const timeS = state?.time_s ?? 0;
   const due = dueManualLoad(of, timeS);
@@ -62,7 +62,9 @@ function Hands({ of }: { of: Step }) {
   const isDue = timeS >= due.time_s;
   return (
     <p class={`note is-accent ${isDue ? "strong" : ""}`} aria-live="assertive">
-      {isDue ? words.handNow(what, due.is_on) : words.handAt(what, due.is_on, due.time_s)}
+      {isDue
+        ? words.manualLoadNow(what, due.is_on)
+        : words.manualLoadAt(what, due.is_on, due.time_s)}
     </p>
   );
 }
@@ -133,7 +135,7 @@ export function Trial({ of, exercise, onDone }: TaskProps) {
       )}
       <CutOff of={of} />
       <Obstacle of={of} />
-      <Hands of={of} />
+      <ManualLoads of={of} />
       <p class="row">
         <button
           type="button"

@@ -6,7 +6,6 @@ import {
   checkRun,
   type Exercise,
   type ExerciseSummary,
-  submit as giveIn,
   listCourse,
   putAnswer,
   putLaw,
@@ -16,6 +15,7 @@ import {
   restoreSettings,
   type Step,
   setUpStep,
+  submitExercise,
 } from "../../core/api/course";
 import { RefusedError } from "../../core/api/errors";
 import { readRun } from "../../core/api/runs";
@@ -225,7 +225,7 @@ export async function tryLaw(law: string): Promise<void> {
 
 export async function submit(student: string): Promise<void> {
   const name = exercise.peek()?.name ?? "";
-  const judgement = await attempt("submit", () => giveIn(name, student));
+  const judgement = await attempt("submit", () => submitExercise(name, student));
   if (judgement === null) return;
   applyExercise(await attempt("read", () => readExercise(name)));
 }
