@@ -105,7 +105,7 @@ def test_default_stream_needs_at_most_15_kb_per_second(lab: Lab) -> None:
     stream, hello = open_stream(lab)
     size, samples, ticks = 0, 0, []
     with stream:
-        first = read_batches(stream, hello, 1)[0].ticks[-1]
+        first, begun = read_batches(stream, hello, 1)[0].ticks[-1], time.monotonic()
         while not ticks or ticks[-1] < first + 3000:
             message = stream.recv(timeout=PATIENCE_S)
             size += len(message)
@@ -115,7 +115,8 @@ def test_default_stream_needs_at_most_15_kb_per_second(lab: Lab) -> None:
                 ticks.append(batch.ticks[-1])
     seconds = (ticks[-1] - first) * hello["period_s"]
     assert samples / seconds == pytest.approx(200, rel=0.02)
-    assert size / seconds < 15_000
+    # The state is sent by the clock: on a busy machine more often in a second of the run.
+    assert size / max(seconds, time.monotonic() - begun) < 15_000
 
 
 def test_late_client_gets_the_requested_past(lab: Lab) -> None:
