@@ -12,8 +12,7 @@ ALL = list(range(len(CHANNELS)))
 EVERY_EFFECT = EVERY
 SHOWN_IN_BATCHES = ("ndobc", "fl")
 """The laws that `make test` runs in batches with the effects of the rig and on the loop of the
-bench: without a memory, with a memory of numbers and of records, and one called for one run after
-the other.
+bench: one with a memory and one without.
 """
 
 
