@@ -2,6 +2,7 @@
 
 import contextlib
 import io
+import socket
 
 import viser
 from viser.infra import WebsockClientConnection
@@ -11,21 +12,26 @@ from svsa_scene import ActuatorPose
 from svsa_scene.arm import ArmScene
 from svsa_scene.arm_pose import ArmPose
 from svsa_scene.scene import ActuatorScene
+from svsa_server.scene.viser_proxy import SCENE_BUFFER_BYTES
 
 
 class _LoopbackViser(viser.ViserServer):
     """A viser server for connections of this machine.
 
     It never opens a public tunnel, also on request. A proxy that waits for a slow browser does not
-    answer its pings, and is not disconnected.
+    answer its pings, and is not disconnected. The system must not buffer many old poses for it.
     """
 
     def __init__(self) -> None:
         super().__init__(host="127.0.0.1", port=0, verbose=False)
-        self._websock_server.on_client_connect(self._wait_for_pongs)
+        self._websock_server.on_client_connect(self._prepare_for_slow_proxy)
 
-    def _wait_for_pongs(self, client: WebsockClientConnection) -> None:
-        self._websock_server._live_connections[client.client_id].ping_timeout = None
+    def _prepare_for_slow_proxy(self, client: WebsockClientConnection) -> None:
+        connection = self._websock_server._live_connections[client.client_id]
+        connection.ping_timeout = None
+        connection.transport.set_write_buffer_limits(SCENE_BUFFER_BYTES)
+        plain: socket.socket = connection.transport.get_extra_info("socket")
+        plain.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, SCENE_BUFFER_BYTES)
 
     def request_share_url(self, verbose: bool = True) -> str | None:
         return None

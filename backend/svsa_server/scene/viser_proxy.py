@@ -33,8 +33,8 @@ from svsa_server.security_headers import POLICY, VIEWER_POLICY
 
 MAX_BROWSER_MESSAGE_BYTES = 4096
 MAX_SCENE_MESSAGE_BYTES = 16 * 1024 * 1024
-SCENE_BUFFER_BYTES = 64 * 1024
-"""Receive buffer: poses in it are old when a slow browser gets them."""
+SCENE_BUFFER_BYTES = 8 * 1024
+"""Each buffer between viser and the proxy: poses in it are old when a slow browser gets them."""
 _CONNECT_TIMEOUT_S = 20.0
 _NO_PEER = ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT)
 """No peer verification: the connection to a port of this machine is not encrypted."""
