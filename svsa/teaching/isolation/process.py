@@ -7,6 +7,7 @@ import os
 import select
 import signal
 import subprocess
+import sys
 import tempfile
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager, ExitStack
@@ -115,11 +116,14 @@ class RunningLaw:
         self._opened.close()
 
     def read_output(self) -> str:
-        """Return the end of the law's output to stdout and stderr."""
+        """Return the end of the law's output to stdout and stderr, without the folder of Python,
+        which may contain a user's name.
+        """
         # `pread`, because the position of the file is where the law's next output goes.
         descriptor = self._output.fileno()
         begin = max(0, os.fstat(descriptor).st_size - SHOWN_BYTES)
-        return os.pread(descriptor, SHOWN_BYTES, begin).decode("utf-8", "replace")
+        output = os.pread(descriptor, SHOWN_BYTES, begin).decode("utf-8", "replace")
+        return output.replace(sys.base_prefix, "")
 
     def _ask(self, kind: int, rows: bytes, expected: int, wait_s: float) -> bytes:
         number = self._draw_number()

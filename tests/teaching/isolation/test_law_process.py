@@ -1,6 +1,7 @@
 """A law in a separate process computes the same as in this one, and its faults have names."""
 
 import shutil
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -95,6 +96,7 @@ def test_every_run_starts_in_an_empty_folder():
         (b"def law(*given): return 1, 2, 3", "two torques (u1, u2) in N·m, not (1, 2, 3)"),
         (b"def law(*given): return 'a', 'b'", "two torques (u1, u2) in N·m, not ('a', 'b')"),
         (b"def law(*given):\n    return 1 / 0", 'File "law.py", line 2'),
+        (b"import json\njson.loads('x')", "/json/__init__.py"),
     ],
 )
 def test_invalid_law_is_reported_with_the_error_of_python(source, reported):
@@ -102,6 +104,7 @@ def test_invalid_law_is_reported_with_the_error_of_python(source, reported):
         run(source)
     assert raised.value.code == "error"
     assert reported in raised.value.output
+    assert sys.base_prefix not in raised.value.output
 
 
 def test_large_torques_are_limited_and_nan_ends_the_run():
