@@ -21,6 +21,8 @@ def search(page: Page, lab: Lab) -> Locator:
     page.get_by_label("Length of a run").fill("8")
     page.get_by_label("Maximum runs").fill("64")
     page.get_by_role("button", name="Search").press("Enter")
+    # The result of an earlier search is shown until then.
+    page.wait_for_url(re.compile("falsifier=(?!all)"))
     reported = page.get_by_role("region", name=re.compile("^NDOBC: "))
     expect(reported).to_contain_text("Simplified load with the same failure", timeout=WORKER_MS)
     expect(reported).to_contain_text(re.compile(r"pulse of .* N·m on the link"), timeout=WORKER_MS)
