@@ -102,7 +102,7 @@ export default defineConfig(({ mode }) => ({
      */
     isolate: false,
     setupFiles: "tests/setup.ts",
-    css: { include: [/src\/.*\.css/] },
+    css: { include: [/(theme|parts|primitives)\.css/] },
     /** Only for tests that hang: on a busy machine the first import alone may take 10 s. */
     testTimeout: 60_000,
     hookTimeout: 60_000,

@@ -1,6 +1,8 @@
 import "uplot/dist/uPlot.min.css";
 import "./theme.css";
 import "./base.css";
+import "./parts.css";
+import "./primitives.css";
 import "./layout/layout.css";
 import "./layout/statusbar.css";
 import "./core/widgets/plantmark.css";

@@ -1,4 +1,4 @@
-/** Every common class of the style sheets, what it is for, and a sample. */
+/** Every primitive and part of the style sheets, what it is for, and a sample. */
 import type { ComponentChildren } from "preact";
 import { Choice } from "../src/core/widgets/form";
 import { NumberField } from "../src/core/widgets/numberinput";
@@ -26,44 +26,57 @@ const words = (look: string) => <p class={look}>Position error 0.5°</p>;
 
 export const LAYOUT: readonly Entry[] = [
   { name: "stack", use: "One below the other, with equal distances.", sample: boxes("stack") },
+  {
+    name: "column",
+    use: "The same as a flexible column: a part may grow.",
+    sample: boxes("column"),
+  },
   { name: "row", use: "Side by side; wraps.", sample: boxes("row", 12) },
+  { name: "line", use: "Side by side in one line.", sample: boxes("line") },
   { name: "spread", use: "A row whose parts are at both ends.", sample: boxes("spread", 2) },
   { name: "pair", use: "Two equal columns, such as two fields.", sample: boxes("pair", 4) },
   { name: "halves", use: "Two columns, or one where two do not fit.", sample: boxes("halves", 2) },
-  { name: "grow", use: "In a row: takes the rest.", sample: null },
-  { name: "end", use: "In a row: moves to the end.", sample: null },
+  {
+    name: "cells",
+    use: "As many columns as fit; --cell is the least width.",
+    sample: boxes("cells"),
+  },
+  { name: "joined tight loose", use: "Distance of one of the above.", sample: boxes("line loose") },
+  { name: "grow rigid", use: "In a line: takes the rest; never shrinks.", sample: null },
+  { name: "end start", use: "In a line: moves to the end; moves the others there.", sample: null },
   { name: "wide block", use: "All columns of a grid; the whole width.", sample: null },
+  { name: "fill", use: "Over all of the nearest positioned element.", sample: null },
   { name: "scroll", use: "Scrolls horizontally.", sample: null },
+  { name: "divided", use: "A line above it.", sample: words("divided") },
 ];
 
 export const TEXT: readonly Entry[] = [
   { name: "muted good bad", use: "Color: less important, good, wrong.", sample: words("bad") },
-  { name: "small strong", use: "Size and weight.", sample: words("small strong") },
-  { name: "number", use: "Digits of equal width, right-aligned.", sample: words("number") },
-  {
-    name: "visually-hidden skip",
-    use: "Screen readers only; a link that skips parts.",
-    sample: null,
-  },
+  { name: "small tiny strong", use: "Size and weight.", sample: words("small strong") },
+  { name: "tabular number", use: "Digits of equal width; right-aligned.", sample: words("number") },
   { name: "nowrap breaks clip", use: "One line; breaks anywhere; cut.", sample: words("clip") },
   { name: "hint unit", use: "Explanation; unit of a number.", sample: words("hint") },
   { name: "problem as-written", use: "Error; output of a program.", sample: words("problem") },
 ];
 
 export const PARTS: readonly Entry[] = [
-  { name: "card desk", use: "A surface with a title; a page with a side column.", sample: null },
-  { name: "panel popup", use: "Dialogs: the components Panel and Popup.", sample: null },
   { name: "surface", use: "Panels, cards, tables on the background.", sample: words("surface") },
+  { name: "sunken", use: "A drawing or a group on its own ground.", sample: words("sunken") },
+  { name: "floating", use: "Dialogs, popups, notices.", sample: <h2 class="floating">Title</h2> },
+  { name: "bar", use: "A row across the page; is-foot at the bottom.", sample: boxes("bar") },
   {
     name: "button",
-    use: "is-primary, is-small, is-icon.",
+    use: "is-primary, is-small, is-icon, bad; aria-pressed is shown.",
     sample: (
       <p class="row">
         <button type="button" class="button is-primary">
           Start
         </button>
-        <button type="button" class="button is-small">
-          Reset
+        <button type="button" class="button is-small" aria-pressed="true">
+          Pressed
+        </button>
+        <button type="button" class="button bad">
+          Delete run
         </button>
       </p>
     ),
@@ -107,7 +120,7 @@ export const PARTS: readonly Entry[] = [
     sample: <Switch label="Friction" isOn onToggle={async () => undefined} />,
   },
   {
-    name: "form field",
+    name: "form",
     use: "Labels above their fields.",
     sample: (
       <div class="form">
@@ -125,24 +138,6 @@ export const PARTS: readonly Entry[] = [
           <td>0.31</td>
         </tr>
       </Table>
-    ),
-  },
-  {
-    name: "tabs",
-    use: "Links to pages, in groups.",
-    sample: (
-      <nav class="tabs row" aria-label="Sample">
-        <ul class="row">
-          <li>
-            <a href="#lab" aria-current="page">
-              Lab
-            </a>
-          </li>
-          <li>
-            <a href="#runs">Runs</a>
-          </li>
-        </ul>
-      </nav>
     ),
   },
   {

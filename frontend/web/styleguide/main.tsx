@@ -1,11 +1,11 @@
 /** The style guide: only in `make dev`, at /styleguide/; `vite build` leaves it out. */
 import "../src/theme.css";
 import "../src/base.css";
-import "../src/layout/layout.css";
-import "../src/core/plots/plots.css";
-import "../src/lab/panels/controls.css";
+import "../src/primitives.css";
+import "../src/parts.css";
 import "../src/core/widgets/page.css";
 import "../src/core/widgets/numberinput.css";
+import "../src/core/widgets/panel.css";
 import { render } from "preact";
 import { toggleTheme } from "../src/core/state/preferences";
 import css from "../src/theme.css?raw";
@@ -32,7 +32,7 @@ function Guide() {
         <div>
           <h2>Style guide</h2>
           <p class="muted">
-            Use these classes first. A style sheet of a page has only what that page alone needs.
+            Use these classes first. A style sheet of a page has rules for plots, plane and 3D view.
           </p>
         </div>
         <button type="button" class="button" onClick={toggleTheme}>
@@ -40,9 +40,9 @@ function Guide() {
         </button>
       </div>
       <h2>Tokens of theme.css</h2>
-      <div class="halves">
+      <div class="cells">
         {TOKENS.map((token) => (
-          <div key={token} class="row">
+          <div key={token} class="line">
             <span class="dot" style={{ background: `var(${token})` }} /> <code>{token}</code>
           </div>
         ))}
@@ -50,7 +50,7 @@ function Guide() {
       {Object.entries({ Layout: LAYOUT, Text: TEXT, Parts: PARTS }).map(([title, entries]) => (
         <section key={title} class="stack">
           <h2>{title}</h2>
-          <div class="halves">
+          <div class="cells">
             {entries.map((entry) => (
               <Card key={entry.name} {...entry} />
             ))}

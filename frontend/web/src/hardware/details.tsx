@@ -17,8 +17,8 @@ const QUIET: readonly BenchState["status"][] = ["off", "reset", "config", "mode"
 
 function Problems({ problems }: { problems: readonly string[] }) {
   return (
-    <section class="surface bench-card is-problems" aria-label={text.bench.problems}>
-      <h2>
+    <section class="surface small bench-card is-problems" aria-label={text.bench.problems}>
+      <h2 class="bad">
         <span aria-hidden="true">▲</span> {text.bench.problems}
       </h2>
       <ul class="bullets">
@@ -32,8 +32,8 @@ function Problems({ problems }: { problems: readonly string[] }) {
 
 function Age({ seconds, level }: { seconds: number; level: Freshness }) {
   const { drives } = text.bench;
-  if (!isLive.value) return <td class="is-words">{drives.notKnown}</td>;
-  if (level === "silent" || level === "unheard") return <td class="is-words">{drives[level]}</td>;
+  if (!isLive.value) return <td class="breaks">{drives.notKnown}</td>;
+  if (level === "silent" || level === "unheard") return <td class="breaks">{drives[level]}</td>;
   return (
     <td class={level === "fresh" ? "good" : "bad"}>
       <span aria-hidden="true">{SIGNS[level]}</span> {drives.ago(formatLapse(seconds))}
@@ -50,7 +50,7 @@ function Drives({ bench }: { bench: BenchState }) {
   const { drives } = text.bench;
   const { ages_s: ages, current_a: currents, supervised } = bench;
   return (
-    <section class="surface bench-card is-drives" aria-label={drives.heading}>
+    <section class="surface small bench-card is-drives" aria-label={drives.heading}>
       <h2>{drives.heading}</h2>
       <table>
         <thead>
@@ -95,7 +95,7 @@ function Drives({ bench }: { bench: BenchState }) {
 function Calibration({ bench }: { bench: BenchState }) {
   const { calibrated_by: by, calibrated_on: on } = bench;
   return (
-    <section class="surface bench-card is-calibration" aria-label={text.bench.calibration}>
+    <section class="surface small bench-card is-calibration" aria-label={text.bench.calibration}>
       <h2>{text.bench.calibration}</h2>
       {on === null ? (
         <p class="bad">

@@ -33,7 +33,7 @@ export function EnduranceNote({ load }: { load: Load | null }) {
   }, [question]);
   const answer = found !== null && found.question === question ? found.answer : null;
   return (
-    <div class="endurance" role="status" hidden={answer === null}>
+    <div class="small strong endurance" role="status" hidden={answer === null}>
       {answer !== null && (
         <details>
           <summary>

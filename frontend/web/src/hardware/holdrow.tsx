@@ -39,10 +39,10 @@ export function HoldRow({ bench: { status } }: { bench: BenchState }) {
   const label =
     other === null ? words.words[holdMessage(status, held, holdEnd.value)] : words.other(other);
   return (
-    <section class="hold" aria-label={words.heading}>
+    <section class="bar is-foot hold" aria-label={words.heading}>
       <button
         type="button"
-        class="hold-button"
+        class="rigid strong hold-button"
         aria-pressed={held}
         aria-describedby={id}
         aria-keyshortcuts="d"

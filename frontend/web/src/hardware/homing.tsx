@@ -13,12 +13,16 @@ const AXES: readonly Axis[] = ["link", "motor1", "motor2"];
 
 function Axes({ bench: { homing } }: { bench: BenchState }) {
   return (
-    <ol class="row axes">
+    <ol class="row">
       {AXES.map((axis) => {
         const isDone = homing.done.includes(axis);
         const isNext = homing.next_step === axis;
         return (
-          <li key={axis} class={isDone ? "good" : ""} aria-current={isNext ? "step" : undefined}>
+          <li
+            key={axis}
+            class={isDone ? "good" : isNext ? "strong" : ""}
+            aria-current={isNext ? "step" : undefined}
+          >
             <span aria-hidden="true">{isDone ? "✓" : isNext ? "▸" : "○"}</span> {words.axis[axis]}
             {isDone && <span class="visually-hidden"> {text.bench.done}</span>}
             {isNext && <small> {words.here}</small>}
@@ -36,7 +40,7 @@ function Confirmation({ axis, isAllowed }: { axis: Axis; isAllowed: boolean }) {
     void perform("bench.home", confirmHome(axis, personName.peek().trim()));
   };
   return (
-    <form class="homing-form" onSubmit={submit}>
+    <form class="pair homing-form" onSubmit={submit}>
       <label for={id}>{words.by}</label>
       <input
         id={id}
@@ -63,7 +67,7 @@ function Confirmation({ axis, isAllowed }: { axis: Axis; isAllowed: boolean }) {
 export function Homing({ bench }: { bench: BenchState }) {
   const { next_step: next, instruction } = bench.homing;
   return (
-    <section class="surface bench-card" aria-label={words.heading}>
+    <section class="surface small bench-card" aria-label={words.heading}>
       <h2>{words.heading}</h2>
       <Axes bench={bench} />
       <p class="instruction" role="status">

@@ -99,7 +99,7 @@ export function Loop({ loop }: { loop: LoopState }) {
     [words.skipped, words.of(count(loop.skipped_ticks), count(loop.ticks))],
   ] as const;
   return (
-    <section class="surface bench-card is-loop" aria-label={words.heading}>
+    <section class="surface small bench-card is-loop" aria-label={words.heading}>
       <h2>
         {words.heading}{" "}
         {isLive.value ? (
@@ -113,7 +113,7 @@ export function Loop({ loop }: { loop: LoopState }) {
         )}
       </h2>
       {isLive.value && <RestartInstructions loop={loop} />}
-      <div class="loop-columns">
+      <div class="cells" style={{ "--cell": "150px" }}>
         <Lateness loop={loop} />
         <dl class="facts" aria-label={words.lateness}>
           {rows.map(([name, value]) => (

@@ -22,7 +22,7 @@ function Progress({ status }: { status: BenchState["status"] | null }) {
             class={`is-${place}`}
             aria-current={place === "here" ? "step" : undefined}
           >
-            <span class="stage-sign" aria-hidden="true" />
+            <span class="tiny stage-sign" aria-hidden="true" />
             {text.bench.stage[stage]}
             {place === "done" && <span class="visually-hidden"> {text.bench.done}</span>}
           </li>
@@ -43,13 +43,13 @@ export function BenchStrip({ bench }: { bench: BenchState }) {
   const advice = text.bench.advice[adviceFor(bench, isSwitchHeld.value)];
   return (
     <section class={`bench is-${kind}`} aria-label={text.bench.heading}>
-      <div class="bench-strip">
+      <div class="line bench-strip">
         <p class="bench-mark" title={`${bench.name}, ${bench.interface}`}>
           <strong>{text.mark[kind].name}</strong>
           <small>{text.mark[kind].means}</small>
         </p>
         <Progress status={isLive.value && !isStarting(bench) ? bench.status : null} />
-        <p class="bench-advice" role="status">
+        <p class="small bench-advice" role="status">
           <strong>{isLive.value ? status : text.bench.unknown}</strong>
           <span>{isLive.value ? advice : text.bench.lastHeard(status)}</span>
           {isLive.value && bench.loop.step !== null && (

@@ -61,7 +61,7 @@ function Here() {
   ) : at.kind === "learn" && at.exercise === "" ? (
     <LearnPage />
   ) : state === null ? (
-    <main class="waiting-page">{phase.value !== "ended" && text.connection.waiting}</main>
+    <main class="muted waiting-page">{phase.value !== "ended" && text.connection.waiting}</main>
   ) : (
     <main class={at.kind === "learn" ? "lab has-lesson" : isBasic.value ? "lab is-basic" : "lab"}>
       <Views state={state} isBasic={isBasic.value} />
@@ -69,7 +69,7 @@ function Here() {
       <LoadButton state={state} />
       <Plots isBasic={isBasic.value} />
       {at.kind === "learn" ? (
-        <div class="lesson-side">
+        <div class="column lesson-side">
           <Lesson name={at.exercise} />
           {hasFreeSettings.value && <Controls state={state} />}
         </div>

@@ -60,7 +60,7 @@ export function Banners() {
       )}
       {isNewInstance.value && !isLost.value && <NewInstance />}
       {fault && (
-        <div class="banner is-fault" role="alert">
+        <div class="row banner is-fault" role="alert">
           <span class="banner-sign" aria-hidden="true">
             ▲
           </span>

@@ -18,7 +18,7 @@ export function AllControlsSwitch() {
     <button
       type="button"
       role="switch"
-      class="button all-controls"
+      class="button end all-controls"
       aria-checked={areAllControlsOn.value}
       title={words.hint}
       onClick={toggleAllControls}

@@ -77,8 +77,8 @@ export function Comparison({ state }: { state: SessionState }) {
       class="surface metrics comparison"
       label={isBench ? compare.benchHeading : compare.heading}
       caption={
-        <span class="comparison-caption">
-          <span>{sinceOf(window)}</span>
+        <span class="line comparison-caption">
+          <span class="grow clip">{sinceOf(window)}</span>
           <AllMetricsButton state={state} />
         </span>
       }

@@ -24,7 +24,7 @@ export function LazyPage({ name }: { name: keyof Pages }) {
   return Page ? (
     <Page />
   ) : (
-    <main class="waiting-page" aria-live="assertive">
+    <main class="muted waiting-page" aria-live="assertive">
       {isMissing.value && text.pages.missing}
     </main>
   );

@@ -34,7 +34,7 @@ export function Login() {
   return (
     <dialog
       ref={dialog}
-      class="login"
+      class="floating login"
       aria-labelledby={`${id}-title`}
       onCancel={(event) => event.preventDefault()}
     >

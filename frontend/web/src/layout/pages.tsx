@@ -70,9 +70,9 @@ function Tab({ page, isHere, name = words.names[page] }: TabProps) {
 export function Tabs() {
   const here = pageOf(place.value);
   return (
-    <nav class="tabs row" aria-label={words.tabs}>
+    <nav class="line joined rigid tabs" aria-label={words.tabs}>
       {GROUPS.map((group) => (
-        <ul key={group[0]} class="row">
+        <ul key={group[0]} class="line">
           {group
             .filter((page) => shownPages.value.includes(page))
             .map((page) =>
@@ -98,7 +98,7 @@ export function EvaluationTabs() {
   const here = pageOf(place.value);
   if (!EVALUATION.includes(here)) return null;
   return (
-    <nav class="tabs is-second" aria-label={words.evaluation}>
+    <nav class="bar rigid tabs" aria-label={words.evaluation}>
       <ul class="row">
         {EVALUATION.map((page) => (
           <Tab key={page} page={page} isHere={page === here} />

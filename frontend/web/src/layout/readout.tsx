@@ -25,8 +25,8 @@ export function Readout({ state }: { state: SessionState }) {
   const since = <span class="since">{text.readout.since[window.kind]}</span>;
   const recovery = recoveryOf(metrics ?? null, window);
   return (
-    <dl class="surface readout" aria-label={text.readout.heading}>
-      <div class="is-main">
+    <dl class="surface tabular readout" aria-label={text.readout.heading}>
+      <div class="spread is-main">
         <dt>
           {isLive.value ? text.readout.error : text.readout.lastError}{" "}
           <AllMetricsButton state={state} />

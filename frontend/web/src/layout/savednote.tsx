@@ -38,7 +38,7 @@ export function SavedNote() {
     saveStatus.value = null;
   };
   return (
-    <div class="toast" role="status" hidden={now === null}>
+    <div class="line floating toast" role="status" hidden={now === null}>
       {now && (
         <>
           <p>

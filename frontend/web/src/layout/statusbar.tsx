@@ -31,14 +31,14 @@ function SessionPill({ state: { status, bench } }: { state: SessionState }) {
   const word = bench === null ? text.status[status] : wordOf(bench);
   if (!isLive.value) {
     return (
-      <span class="pill is-unknown" title={text.status.lastKnown(word)}>
+      <span class="small strong nowrap pill is-unknown" title={text.status.lastKnown(word)}>
         <span aria-hidden="true">?</span>{" "}
         {phase.value === "ended" ? text.connection.ended : text.status.unknown}
       </span>
     );
   }
   return (
-    <span class={`pill is-${status}`}>
+    <span class={`small strong nowrap pill is-${status}`}>
       <span aria-hidden="true">{isStandingBench ? "○" : STATUS_SIGNS[status]}</span> {word}
     </span>
   );
@@ -53,7 +53,7 @@ interface CellProps {
 
 function Cell({ name, hint, children, ...rest }: CellProps) {
   return (
-    <div class={`status-cell ${rest.class ?? ""}`} title={hint}>
+    <div class={`rigid small nowrap status-cell ${rest.class ?? ""}`} title={hint}>
       <dt>{name}</dt>
       <dd>{children}</dd>
     </div>
@@ -126,11 +126,9 @@ function Connection() {
     <Cell name={text.status.connection} class={phase.value === "live" ? "good" : "bad"}>
       <span role="status">
         <span aria-hidden="true">{PHASE_SIGNS[phase.value]}</span> {text.connection[phase.value]}
-      </span>
+      </span>{" "}
       {missed > 0 && (
-        <small class="missed" title={text.connection.missedHint}>
-          {text.connection.missed(missed)}
-        </small>
+        <small title={text.connection.missedHint}>{text.connection.missed(missed)}</small>
       )}
     </Cell>
   );
@@ -163,13 +161,13 @@ export function StatusBar() {
   // While the plant is unknown, the button stays.
   const hasStop = isShown || state === null || !isLive.value;
   return (
-    <section ref={bar} class="statusbar" aria-label={text.status.heading}>
-      <div class="status-now">
+    <section ref={bar} class="bar is-foot rigid statusbar" aria-label={text.status.heading}>
+      <div class="line status-now">
         <CornerMark />
         {shown && <SessionPill state={shown} />}
         {shown && <Clock />}
       </div>
-      <dl class="grow status-cells">
+      <dl class="line joined grow tabular status-cells">
         {shown &&
           (shown.bench ? <BenchLoop bench={shown.bench} /> : <SimulatedLoop state={shown} />)}
         {state && <RecordingCell state={state} />}
@@ -187,7 +185,12 @@ const readTime = () => formatTime(samples.ring.newestTime || 0);
 function Clock() {
   const element = useLiveText<HTMLSpanElement>(readTime);
   return (
-    <span class="clock" title={text.status.timeHint} role="timer" aria-label={text.status.time}>
+    <span
+      class="strong tabular clock"
+      title={text.status.timeHint}
+      role="timer"
+      aria-label={text.status.time}
+    >
       <span ref={element} />
     </span>
   );

@@ -44,7 +44,7 @@ export function TopBar() {
   // An exercise sets the session up and records it; a figure of the paper would overwrite that.
   const isLesson = place.value.kind === "learn";
   return (
-    <header class={isLab && !isBasic.value ? "topbar is-full" : "topbar"}>
+    <header class={isLab && !isBasic.value ? "bar topbar is-full" : "bar topbar"}>
       <h1>
         {text.name} <small>{isLab && state ? subtitleOf(state) : text.subtitle}</small>
       </h1>
@@ -63,7 +63,7 @@ export function TopBar() {
           <AllControlsSwitch />
         </div>
       )}
-      <div class="topbar-end">
+      <div class="line end topbar-end">
         <ClassButton />
         <PagesMenu />
         {!isBasic.value && <CallsButton />}

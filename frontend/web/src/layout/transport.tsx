@@ -37,7 +37,7 @@ function FigureName({ figure }: { figure: Figure }) {
 
 export function FigurePicker({ state }: { state: SessionState }) {
   return (
-    <fieldset class="figures" disabled={!takesCommands.value}>
+    <fieldset class="line tight figures" disabled={!takesCommands.value}>
       <legend class="hint">{text.figures.heading}</legend>
       {FIGURES.map((figure) => (
         <button
@@ -58,7 +58,7 @@ function SpeedPicker({ speed }: { speed: Speed }) {
   const isListed = speed === "max" || SPEEDS.includes(speed);
   const speeds = isListed ? SPEEDS : [...SPEEDS, speed].sort((a, b) => a - b);
   return (
-    <label class="select" title={text.transport.speedHint}>
+    <label class="line tight select" title={text.transport.speedHint}>
       <span class="hint select-label">{text.transport.speed}</span>
       <select
         disabled={!mayCommand.value}
@@ -85,7 +85,7 @@ function Stepper({ state }: { state: SessionState }) {
   const isReady = state.status === "paused" && mayCommand.value;
   const ticks = Math.max(1, Math.round((stepMs / 1000) * state.rate_hz));
   return (
-    <div class="stepper">
+    <div class="line joined stepper">
       <button
         type="button"
         class="button"
@@ -116,7 +116,7 @@ export function Transport({ state, isBasic }: { state: SessionState; isBasic: bo
   const isRunning = state.status === "running";
   const action = isRunning ? text.transport.pause : text.transport.run;
   return (
-    <fieldset class="transport" aria-label={text.transport.heading}>
+    <fieldset class="line tight transport" aria-label={text.transport.heading}>
       <button
         type="button"
         class="button is-primary"

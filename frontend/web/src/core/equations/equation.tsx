@@ -32,10 +32,16 @@ function EquationRow({ equation }: { equation: Equation }) {
         <div class="note is-warn equation-printed">
           <span class="tag strong">{words.printed}</span>
           <Formula tex={printed} />
-          <p translate>{words.corrected}</p>
+          <p class="small" translate>
+            {words.corrected}
+          </p>
         </div>
       )}
-      {note && <p translate>{words.notes[note]}</p>}
+      {note && (
+        <p class="hint" translate>
+          {words.notes[note]}
+        </p>
+      )}
     </div>
   );
 }

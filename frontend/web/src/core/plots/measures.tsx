@@ -68,9 +68,9 @@ function Rows({ setup, indices }: RowsProps) {
           <tr key={trace.key}>
             <th scope="row">
               <Swatch look={trace} sign={trace.sign} />
-              {trace.label}
+              {trace.label}{" "}
               {measures.missingS > 0 && (
-                <span class="measures-missing" title={text.cursors.missingHint}>
+                <span class="bad" title={text.cursors.missingHint}>
                   {text.cursors.missing(formatNumber(measures.missingS, 3, 2))}
                 </span>
               )}
@@ -93,8 +93,8 @@ export function MeasureTable() {
   const [a, b] = [ring.timeAt(indices[0]), ring.timeAt(indices[1])];
   const lapse = b - a;
   return (
-    <section class="measures" aria-label={text.cursors.table}>
-      <dl class="measures-head">
+    <section class="column joined small tabular measures" aria-label={text.cursors.table}>
+      <dl class="row measures-head">
         <dt>{text.cursors.names.a}</dt>
         <dd>{text.cursors.value(a.toFixed(3))}</dd>
         <dt>{text.cursors.names.b}</dt>

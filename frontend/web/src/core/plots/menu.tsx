@@ -23,7 +23,7 @@ function Curves({ setup }: { setup: PlotSetup }) {
       {channels.map((channel) => {
         const isShown = setup.channels.includes(channel);
         return (
-          <label key={channel} class="check">
+          <label key={channel} class="line check">
             <input
               type="checkbox"
               checked={isShown}
@@ -64,7 +64,7 @@ export function PlotMenu({ setup, title, traces, hidden }: PlotMenuProps) {
   const shown = traces.filter(({ key, follows }) => !hidden.has(follows ?? key));
   return (
     <Popup
-      class="plot-menu"
+      class="rigid muted strong plot-menu"
       name={text.picker.menu(title)}
       title={text.picker.menu(title)}
       button={<span aria-hidden="true">⋯</span>}
@@ -72,7 +72,7 @@ export function PlotMenu({ setup, title, traces, hidden }: PlotMenuProps) {
       {(close) => (
         <>
           {setup.preset === "phase" ? <Axes {...setup} /> : <Curves setup={setup} />}
-          <fieldset class="popup-row">
+          <fieldset class="row tight">
             <legend>{text.save.title}</legend>
             <button
               type="button"

@@ -17,8 +17,10 @@ interface ChannelChoiceProps {
 export function ChannelChoice({ name, hint, value, disabled, onChoose }: ChannelChoiceProps) {
   const id = useId();
   return (
-    <p class="popup-add">
-      <label for={id}>{name}</label>
+    <p class="stack tight">
+      <label class="strong" for={id}>
+        {name}
+      </label>
       <select
         id={id}
         value={value}
@@ -48,15 +50,15 @@ export function PlotPicker() {
   const shown = setups.value;
   const isFull = shown.length >= MAX_PLOTS;
   return (
-    <Popup class="button tool" title={text.picker.openHint} button={text.picker.open}>
+    <Popup class="button is-small tool" title={text.picker.openHint} button={text.picker.open}>
       {() => (
         <>
-          <fieldset class="popup-presets">
+          <fieldset class="pair tight">
             <legend>{text.picker.title}</legend>
             {PRESET_NAMES.map((preset) => {
               const isShown = shown.some((setup) => setup.key === preset);
               return (
-                <label key={preset} class="check">
+                <label key={preset} class="line check">
                   <input
                     type="checkbox"
                     checked={isShown}

@@ -59,7 +59,7 @@ function PlotsBelow({ list }: { list: RefObject<HTMLElement | null> }) {
   return (
     <button
       type="button"
-      class="plots-below"
+      class="quiet strong plots-below"
       title={text.plots.below(below.length)}
       aria-label={text.plots.below(below.length)}
       onClick={() => goTo(first)}
@@ -161,7 +161,7 @@ export function Plots({ isBasic }: { isBasic: boolean }) {
         tabIndex={0}
       >
         {isEmpty ? (
-          <p class="plots-none">{text.plots.none}</p>
+          <p class="empty">{text.plots.none}</p>
         ) : (
           <Stage list={list} shown={shown} isBasic={isBasic} />
         )}

@@ -51,7 +51,7 @@ export function StepNumbers({ event, nextS }: StepNumbersProps) {
   const isHeld = rows.some(({ metrics }) => metrics !== null);
   const missingS = Math.max(0, ...rows.map(({ metrics }) => metrics?.missingS ?? 0));
   return (
-    <div class="step-numbers" ref={panel} role="status">
+    <div class="floating small step-numbers" ref={panel} role="status">
       <strong>{text.steps.heading(event.label, event.time_s.toFixed(2))}</strong>
       {isHeld ? (
         <table>

@@ -17,7 +17,7 @@ function WindowPicker() {
     showLength(seconds);
   };
   return (
-    <fieldset class="window-picker" aria-label={text.plots.window}>
+    <fieldset class="line small window-picker" aria-label={text.plots.window}>
       {WINDOWS_S.map((seconds) => {
         const isThis =
           span === null
@@ -43,7 +43,7 @@ function WindowPicker() {
 /** How far the session has advanced since the plots were frozen. */
 function Behind() {
   const element = useLiveText<HTMLSpanElement>(readBehind);
-  return <span class="behind" ref={element} aria-hidden="true" />;
+  return <span class="tabular behind" ref={element} aria-hidden="true" />;
 }
 
 function HoldButton() {
@@ -51,7 +51,7 @@ function HoldButton() {
     return (
       <button
         type="button"
-        class="button tool is-primary"
+        class="button is-small tool is-primary"
         title={text.plots.liveHint}
         onClick={goLive}
       >
@@ -64,7 +64,7 @@ function HoldButton() {
     );
   }
   return (
-    <button type="button" class="button tool" title={text.plots.holdHint} onClick={freeze}>
+    <button type="button" class="button is-small tool" title={text.plots.holdHint} onClick={freeze}>
       <svg viewBox="0 0 12 12" aria-hidden="true">
         <path d="M2 1h3v10H2zM7 1h3v10H7z" />
       </svg>
@@ -83,7 +83,7 @@ function ZoomButton({ name, factor, path }: ZoomButtonProps) {
   return (
     <button
       type="button"
-      class="button tool is-icon"
+      class="button is-small tool is-icon"
       aria-label={name}
       title={`${name}. ${text.plots.gestures}`}
       onClick={() => zoom(factor)}
@@ -98,12 +98,12 @@ function ZoomButton({ name, factor, path }: ZoomButtonProps) {
 /** Commands of all plots; `isBasic` leaves out the selection of plots. */
 export function Toolbar({ isBasic }: { isBasic: boolean }) {
   return (
-    <div class="plot-tools" role="toolbar" aria-label={text.plots.tools}>
+    <div class="row tight plot-tools" role="toolbar" aria-label={text.plots.tools}>
       <fieldset class="view-group" aria-label={text.plots.view}>
         <HoldButton />
         <button
           type="button"
-          class="button tool"
+          class="button is-small tool"
           aria-pressed={isZoomOn.value}
           aria-keyshortcuts="Z"
           title={text.zoom.switchHint}
@@ -118,7 +118,7 @@ export function Toolbar({ isBasic }: { isBasic: boolean }) {
       {(!isBasic || areCursorsOn.value) && (
         <button
           type="button"
-          class="button tool"
+          class="button is-small tool"
           aria-pressed={areCursorsOn.value}
           title={text.cursors.switchHint}
           onClick={toggleCursors}
@@ -140,11 +140,11 @@ export function Toolbar({ isBasic }: { isBasic: boolean }) {
               path="M1 5.2h4.2V1h1.6v4.2H11v1.6H6.8V11H5.2V6.8H1z"
             />
           </span>
-          <span class="plot-tools-end">
+          <span class="line tight end">
             <PlotPicker />
             <button
               type="button"
-              class="button tool"
+              class="button is-small tool"
               title={text.save.allHint}
               onClick={saveWindowCsv}
             >

@@ -13,7 +13,7 @@ interface BannerProps {
 
 export function Banner({ look, sign, role = "status", title, words, children }: BannerProps) {
   return (
-    <div class={`banner ${look}`} role={role}>
+    <div class={`row banner ${look}`} role={role}>
       {sign !== undefined && (
         <span class="banner-sign" aria-hidden="true">
           {sign}

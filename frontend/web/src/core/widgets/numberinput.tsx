@@ -160,7 +160,7 @@ export function NumberInput(props: NumberInputProps) {
 
   return (
     <>
-      <span class="number-input">
+      <span class="line tight number-input">
         {(min === undefined || min < 0) && (
           <button
             type="button"

@@ -47,13 +47,13 @@ export function Panel({ title, class: look, aside, onClose, children }: PanelPro
   return (
     <dialog
       ref={panel}
-      class={`panel ${look}`}
+      class={`floating panel ${look}`}
       aria-labelledby={id}
       onKeyDown={(event) => {
         if (event.key === "Escape" && !event.shiftKey) onClose();
       }}
     >
-      <div class="panel-head">
+      <div class="line loose panel-head">
         <h2 id={id}>{title}</h2>
         {aside}
         <button type="button" class="button end" onClick={onClose}>

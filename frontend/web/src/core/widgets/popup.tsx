@@ -77,7 +77,7 @@ export function Popup({
         ref={popup}
         id={id}
         popover="auto"
-        class={`popup ${popupClass ?? ""}`}
+        class={`floating stack small popup ${popupClass ?? ""}`}
         role="dialog"
         aria-label={name ?? title}
         onToggle={(event) => setOpen((event as unknown as ToggleEvent).newState === "open")}

@@ -17,7 +17,7 @@ export function Switch({ label, hint, isOn, onToggle }: SwitchProps) {
     setRequested(null);
   };
   return (
-    <label class="check" title={hint}>
+    <label class="line check" title={hint}>
       <input
         type="checkbox"
         checked={requested ?? isOn}

@@ -114,6 +114,7 @@ export interface SortColumn {
   /** The first click sorts in descending order. */
   isDownFirst?: boolean | undefined;
   class?: string;
+  width?: string | undefined;
 }
 
 interface SortHeadProps {
@@ -130,6 +131,7 @@ export function SortHead({ column, words, sort, onSort }: SortHeadProps) {
     <th
       scope="col"
       class={column.class}
+      style={{ width: column.width }}
       aria-sort={isSorted ? (isDown ? "descending" : "ascending") : "none"}
     >
       <button

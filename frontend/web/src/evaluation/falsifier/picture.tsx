@@ -107,7 +107,7 @@ function ErrorChart(props: ChartProps) {
         {title} <span class="unit">{unit}</span>
         {bodies.length > 1 &&
           bodies.map((body) => (
-            <span key={body.key} class="falsifier-body">
+            <span key={body.key} class="unit">
               <Swatch look={body} /> {words.bodies[body.key as (typeof BODIES)[number]]}
             </span>
           ))}

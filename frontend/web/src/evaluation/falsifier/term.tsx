@@ -44,7 +44,7 @@ interface TermFieldsProps {
 /** One load of the family: kind, channels, size, onset, and duration or frequency. */
 export function TermFields({ number, term, canBeRemoved, onChange, onRemove }: TermFieldsProps) {
   return (
-    <fieldset class="stack falsifier-term">
+    <fieldset class="stack sunken falsifier-term">
       <legend>{words.load(number)}</legend>
       <div class="pair">
         <SelectField

@@ -13,12 +13,12 @@ const words = text.ranking;
 /** Conditions of all measurements. */
 function Legend() {
   return (
-    <details class="surface card ranking-legend">
+    <details class="surface card">
       <summary>{words.legend}</summary>
-      <dl>
+      <dl class="cells" style={{ "--cell": "320px" }}>
         {COLUMNS.map(({ key }) => (
           <div key={key}>
-            <dt>{words.columns[key].name}</dt>
+            <dt class="strong">{words.columns[key].name}</dt>
             <dd class="muted">{words.columns[key].hint}</dd>
           </div>
         ))}

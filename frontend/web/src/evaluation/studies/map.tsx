@@ -31,7 +31,7 @@ export function SuccessMap() {
     <section class="surface card" aria-label={words.map}>
       <h3>{words.map}</h3>
       <svg
-        class="drawing studies-map"
+        class="drawing sunken studies-map"
         viewBox={`0 0 ${WIDTH} ${HEIGHT}`}
         preserveAspectRatio="none"
         role="img"

@@ -134,7 +134,7 @@ function StudyView({ found }: { found: Study }) {
             <span class="muted">{words.marks}</span>{" "}
             <b>{words.brushed(brushedCount.value, count)}</b>
             <label>
-              <span class="muted">{words.shown}</span>
+              <span class="muted rigid">{words.shown}</span>
               <select
                 value={shownLaw.value || EVERY_LAW}
                 onChange={(event) => setView({ law: event.currentTarget.value })}

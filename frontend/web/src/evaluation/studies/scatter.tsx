@@ -82,7 +82,7 @@ function Ends({ plane }: { plane: Plane }) {
     return true;
   };
   return (
-    <div class="form studies-ends">
+    <div class="form cells" style={{ "--cell": "90px" }}>
       {(["x", "y"] as const).map((way) => {
         const axis = way === "x" ? words.x : words.y;
         return ([0, 1] as const).map((end) => (

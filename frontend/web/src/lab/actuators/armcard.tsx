@@ -36,7 +36,7 @@ export function ArmCard({ onProblem }: ArmCardProps) {
   const names = (actuators.value ?? []).map((one) => one.name);
   const titleOf = (of: string) => actuators.value?.find((one) => one.name === of)?.title ?? of;
   return (
-    <section class="surface card actuator-card" aria-label={words.name}>
+    <section class="surface stack card" aria-label={words.name}>
       <CardHead
         title={words.name}
         hint={words.lead}

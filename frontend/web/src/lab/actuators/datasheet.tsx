@@ -26,7 +26,7 @@ function Plots({ found }: { found: Datasheet }) {
   const count = found.presets.length;
   return (
     <>
-      <div class="datasheet-plots">
+      <div class="cells">
         <Curves
           title={words.torque}
           summary={words.summary(words.torque, count)}
@@ -85,7 +85,7 @@ export function DatasheetCard({ actuator: { name } }: { actuator: ActuatorRow })
     };
   }, [name]);
   return (
-    <section class="surface card actuator-card" aria-label={words.datasheet}>
+    <section class="surface stack card" aria-label={words.datasheet}>
       <div class="spread">
         <div>
           <h3>{words.datasheet}</h3>
@@ -117,7 +117,7 @@ export function DatasheetCard({ actuator: { name } }: { actuator: ActuatorRow })
           {found.published_rows.length === 0 ? (
             <p class="hint">{words.unpublished}</p>
           ) : (
-            <ul class="published-figures" aria-label={words.published}>
+            <ul class="bullets" aria-label={words.published}>
               {found.published_rows.map(([quantity, measured, published, deviation, source]) => (
                 <li key={quantity}>
                   {quantity}: {words.comparison(measured, published, deviation)}

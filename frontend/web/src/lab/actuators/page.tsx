@@ -73,7 +73,7 @@ function Actuator({ actuator, onProblem }: ActuatorProps) {
   const seconds = useCompiling(actuator.name, isOpening && !actuator.is_compiled);
   const opening = actuator.is_compiled ? words.opening : words.compiling(actuator.title, seconds);
   return (
-    <section class="surface card actuator-card" aria-label={actuator.title}>
+    <section class="surface stack card" aria-label={actuator.title}>
       <CardHead
         title={actuator.title}
         hint={actuator.source}

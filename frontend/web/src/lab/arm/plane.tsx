@@ -121,23 +121,26 @@ export function TipPlane({ state, note }: { state: SessionState; note?: string }
   const force = tipPush.held.value;
   return (
     <section class="surface tip-plane" aria-label={words.plane}>
-      <div class="tip-plane-head">
+      <div class="row tip-plane-head">
         <h2>{words.plane}</h2>
-        <p class="tip-stiffness" title={words.ellipseHint}>
+        <p class="hint tabular tip-stiffness" title={words.ellipseHint}>
           <span class="tip-ellipse-mark" aria-hidden="true" />
-          {words.stiffness} <span class="number" ref={readout} />
+          {words.stiffness} <strong class="number" ref={readout} />
         </p>
-        <span class={force === null ? "tip-plane-hint" : "tip-plane-hint is-pushing"}>
+        <span
+          class={`tip-plane-hint small tabular end ${force === null ? "muted" : "strong tone is-warn"}`}
+        >
           {force === null
             ? words.pushHint
             : words.pushing(formatNumber(Math.hypot(...force), 2, 1))}
         </span>
       </div>
       {note && <p class="hint">{note}</p>}
-      <div class="tip-plane-picture">
+      <div class="fill">
         {/* biome-ignore lint/a11y/useSemanticElements: a picture with a part that is dragged */}
         <svg
           ref={svg}
+          class="fill"
           viewBox={`${-HALF} ${-ABOVE * HALF} ${2 * HALF} ${(1 + ABOVE) * HALF}`}
           role="group"
           aria-label={words.planeLabel}

@@ -24,7 +24,7 @@ interface RowProps {
 function Row({ look, label, name, note, value, range, onTry }: RowProps) {
   const id = useId();
   return (
-    <div class={`bandwidth is-${look}`}>
+    <div class={`small bandwidth is-${look}`}>
       <label for={id}>
         <span aria-hidden="true">{label}</span>
         <span class="visually-hidden">{name}</span>

@@ -74,11 +74,11 @@ export function Curves({ title, summary, x, y, curves, note, caveat }: CurvesPro
   const host = useStaticChart(useMemo(() => describeCurves(x, y, curves), [content]));
   return (
     <figure class={`curves ${caveat ? "is-hatched" : ""}`}>
-      <figcaption>
-        {title} {caveat && <span class="is-fault">{caveat}</span>}
+      <figcaption class="small strong">
+        {title} {caveat && <span class="bad">{caveat}</span>}
       </figcaption>
       <div class="curves-canvas" ref={host} role="img" aria-label={summary} />
-      {note && <p class="curves-note is-fault">{note}</p>}
+      {note && <p class="curves-note bad small strong">{note}</p>}
     </figure>
   );
 }

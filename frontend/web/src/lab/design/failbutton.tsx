@@ -32,10 +32,10 @@ export function FailButton() {
     }
   };
   return (
-    <div class="row design-fail">
+    <div class="row">
       <button
         type="button"
-        class="button"
+        class="button bad"
         title={words.failHint}
         disabled={isBusy}
         onClick={() => void fail()}

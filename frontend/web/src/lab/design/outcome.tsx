@@ -95,11 +95,11 @@ function Judgement({ found }: { found: Prediction }) {
   const verdict = verdictOf(found);
   return (
     <section
-      class={`note judgement ${TONES[verdict]}`}
+      class={`line note small judgement ${TONES[verdict]}`}
       role="status"
       aria-label={words.verdictIs(words.verdict[verdict])}
     >
-      <span class="judgement-sign" aria-hidden="true">
+      <span class="rigid judgement-sign" aria-hidden="true">
         {words.verdictSign[verdict]}
       </span>
       <div>

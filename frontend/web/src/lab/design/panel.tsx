@@ -85,7 +85,7 @@ function Design() {
   return (
     <Panel
       title={words.title}
-      class="design"
+      class="is-wide design"
       onClose={close}
       aside={
         <p class="row hint" aria-hidden="true">
@@ -102,7 +102,7 @@ function Design() {
           </p>
           <Bandwidths />
         </div>
-        <div class="grow design-outcome">
+        <div class="grow column">
           <Roots />
           <SharedPoles />
           <Outcome />
@@ -110,7 +110,7 @@ function Design() {
           <FailButton />
           <Buttons />
         </div>
-        <div class="halves wide design-more">
+        <div class="halves wide divided">
           <Responses />
           <StabilityTable />
           <RegionMap />

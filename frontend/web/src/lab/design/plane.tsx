@@ -213,7 +213,7 @@ export function Plane() {
     // biome-ignore lint/a11y/useSemanticElements: a group of sliders in a drawing
     <svg
       ref={picture}
-      class="drawing plane"
+      class="drawing sunken plane"
       viewBox={`0 0 ${WIDTH} ${HEIGHT}`}
       role="group"
       aria-label={text.design.plane}

@@ -30,7 +30,7 @@ export function UndoButton() {
         <path d="M6 2.2v3h4.2a4.4 4.4 0 0 1 0 8.8H4v-2h6.2a2.4 2.4 0 0 0 0-4.8H6v3L1.4 6.2z" />
       </svg>
       {words.undo}
-      {count > 0 && <span class="undo-count"> {count}</span>}
+      {count > 0 && <span class="tag tiny"> {count}</span>}
     </button>
   );
 }

@@ -52,7 +52,7 @@ function Sheet() {
         <Row press={["?"]}>{keys.does.help}</Row>
         <Row press={[names.escape]}>{keys.does.close}</Row>
       </dl>
-      <label class="row help-switch">
+      <label class="row divided strong help-switch">
         <input
           type="checkbox"
           checked={areKeysOn.value}

@@ -26,7 +26,7 @@ function Question({ other }: { other: string | null }) {
     void confirmControl(name);
   };
   return (
-    <form class="banner is-news is-calm" aria-label={words.heading} onSubmit={submit}>
+    <form class="row banner is-news is-calm" aria-label={words.heading} onSubmit={submit}>
       <p>
         <strong>{other === null ? words.askTitle : words.askOverTitle(other)}</strong>{" "}
         {other !== null && words.askOverText}

@@ -52,7 +52,7 @@ export function ControlCell() {
   const sign = now.holder === null || !isLive.value ? "○" : now.mine ? "●" : "▪";
   return (
     <div
-      class={`status-cell is-control ${now.mine ? "is-mine" : ""} ${mayCommand.value ? "" : "is-other"}`}
+      class={`rigid small nowrap status-cell is-control ${now.mine ? "is-mine" : ""} ${mayCommand.value ? "" : "is-other"}`}
       title={words.hint}
     >
       <dt>{words.heading}</dt>

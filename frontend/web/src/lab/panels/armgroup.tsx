@@ -26,7 +26,7 @@ function Estimate({ state }: { state: SessionState }) {
   const { payload_kg: masses } = state;
   if (!masses) return null;
   return (
-    <p class="hint arm-estimate">
+    <p class="hint tabular arm-estimate">
       {words.estimate}{" "}
       {masses.map((mass, index) => (
         <span key={index === 0 ? "own" : "other"}>
@@ -149,7 +149,7 @@ export function ArmGroup({ state, isBasic }: { state: SessionState; isBasic: boo
       {!isBasic && (
         <p class="hint is-about">{choice === "both" ? words.both : words.one(choice)}</p>
       )}
-      <div class="arm-switches">
+      <div class="row joined">
         <Switch
           label={words.feedforward}
           hint={words.feedforwardHint}

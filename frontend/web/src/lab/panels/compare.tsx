@@ -25,11 +25,11 @@ export function Compare({ state }: { state: SessionState }) {
   const whyNotAdded = isFull ? words.full(most) : words.addHint;
   return (
     <>
-      <div class="compare-line">
+      <div class="line">
         <button
           type="button"
           role="switch"
-          class="compare"
+          class="button grow compare"
           aria-checked={isOn}
           aria-keyshortcuts="c"
           aria-describedby={id}
@@ -37,11 +37,10 @@ export function Compare({ state }: { state: SessionState }) {
           title={isRecording ? text.compare.whileRecording : text.compare.does}
           onClick={() => void toggleCompare(state)}
         >
-          <span class="compare-track" aria-hidden="true" />
-          <span class="compare-words">{text.compare.with(names)}</span>
+          <span class="rigid compare-track" aria-hidden="true" />
+          <span class="grow">{text.compare.with(names)}</span>
         </button>
         <LawPicker
-          class="compare-add"
           label={words.add}
           button={words.add}
           title={isRecording ? text.compare.whileRecording : whyNotAdded}
@@ -51,7 +50,7 @@ export function Compare({ state }: { state: SessionState }) {
         />
       </div>
       {isOn && (
-        <ul class="comparisons" aria-label={words.list}>
+        <ul class="stack tight" aria-label={words.list}>
           {others.map((one) => (
             <ComparisonRow key={one.id} state={state} comparison={one} isRecording={isRecording} />
           ))}

@@ -29,7 +29,7 @@ export function ComparisonRow({ state, comparison, isRecording }: ComparisonLane
   const label = name.startsWith(title) ? name.slice(title.length).trim() : name;
   return (
     <li>
-      <div class="comparison-row">
+      <div class="line comparison-row">
         <Swatch look={lineStyleOfLane(lineStyle, false)} />
         <LawPicker
           label={words.law(name)}
@@ -38,7 +38,7 @@ export function ComparisonRow({ state, comparison, isRecording }: ComparisonLane
           button={title}
           onChoose={(next) => perform(CONTROL.compare, putLane(lane, { law: next }))}
         />
-        <span class="comparison-label">
+        <span class="hint grow breaks">
           {label || (hasOwnSettings(controller) ? words.own : "")}
         </span>
         <button

@@ -30,7 +30,7 @@ export function Controls({ state: session, isBasic = false }: ControlsProps) {
     <section
       id="controls"
       tabIndex={-1}
-      class="surface controls"
+      class="surface column joined controls"
       aria-label={text.controls.heading}
     >
       {/* Without control nothing in it takes the focus, and the keyboard has to scroll it. */}

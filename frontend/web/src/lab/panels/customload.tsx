@@ -37,7 +37,7 @@ export function CustomLoad({ isShown }: { isShown: boolean }) {
   };
 
   return (
-    <form class="custom-load" onSubmit={submit}>
+    <form class="stack" onSubmit={submit}>
       <Choice
         label={text.load.customKind}
         options={offered.map((one) => ({ value: one.kind, label: one.title }))}

@@ -18,8 +18,8 @@ interface GroupProps {
 export function Group({ title, topic, aside, children }: GroupProps) {
   const id = useId();
   return (
-    <section class="group" aria-labelledby={id}>
-      <div class="group-head">
+    <section class="stack tight group" aria-labelledby={id}>
+      <div class="row tight group-head">
         <h2 id={id} tabIndex={-1}>
           {title}
         </h2>
@@ -41,6 +41,7 @@ export function GroupIndex({ groups }: { groups: RefObject<HTMLElement | null> }
         return (
           <a
             key={heading?.id}
+            class="quiet tiny strong nowrap"
             href={`#${heading?.id}`}
             onClick={(event) => {
               event.preventDefault();

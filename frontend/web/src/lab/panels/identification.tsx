@@ -85,7 +85,7 @@ function ModelFile() {
   };
   return (
     <>
-      <label class="button identification-file">
+      <label class="button">
         {words.file}
         <input
           type="file"

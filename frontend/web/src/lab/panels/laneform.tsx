@@ -63,7 +63,7 @@ export function LaneForm({ law, state, comparison }: LaneFormProps) {
   const held = controller.parameters ?? configuration.parameters[law.name] ?? {};
   const isOwn = hasOwnSettings(controller);
   return (
-    <div class="lane-form">
+    <div class="stack tight lane-form">
       <p class="hint">
         {isOwn ? words.ownHint : words.sharedHint}
         {isOwn && (

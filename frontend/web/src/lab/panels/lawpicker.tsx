@@ -39,11 +39,11 @@ function Row({ law, isCurrent, onChoose }: { law: LawRow; isCurrent: boolean } &
         aria-current={isCurrent}
         onClick={() => onChoose(law.name)}
       >
-        <span class="law-sign" aria-hidden="true">
+        <span class="tone is-accent strong" aria-hidden="true">
           {isCurrent && words.presentSign}
         </span>
         <strong>{law.title}</strong>
-        <span class="law-summary">
+        <span class="hint law-summary">
           <MathSymbol text={law.summary} />
         </span>
       </button>
@@ -66,7 +66,7 @@ function LawList({ value, onChoose }: LawListProps) {
     list.current?.addEventListener("keydown", follow);
   }, []);
   return (
-    <div ref={list} class="laws">
+    <div ref={list} class="stack tight laws">
       {isMany && (
         <input
           type="search"
@@ -118,7 +118,6 @@ interface LawPickerProps {
   /** The law in use; null: none yet. */
   value: Law | null;
   title: string;
-  class?: string;
   isDisabled?: boolean;
   onChoose: (law: Law) => unknown;
 }
@@ -127,7 +126,7 @@ interface LawPickerProps {
 export function LawPicker(props: LawPickerProps) {
   return (
     <Popup
-      class={`law-picker ${props.class ?? ""}`}
+      class="button is-small strong law-picker"
       popupClass="law-popup"
       name={props.label}
       title={props.title}

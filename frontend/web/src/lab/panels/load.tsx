@@ -32,9 +32,9 @@ function LoadRows({ state }: { state: SessionState }) {
   const rows = currentLoads(state);
   if (!hasOtherLoads(state)) return null;
   return (
-    <ul class="load-rows">
+    <ul class="small">
       {rows.map((row) => (
-        <li key={row.id}>
+        <li key={row.id} class="spread">
           <span>
             {row.joint !== null && `${text.arm.onJoint(row.joint)}: `}
             {row.label}

@@ -22,7 +22,7 @@ import { EnduranceNote } from "../../hardware/endurance";
 function WeightPicture({ isActive, form }: { isActive: boolean; form: WeightForm }) {
   if (form !== "mass" && form !== "tip") {
     return (
-      <svg class="weight" viewBox="0 0 48 48" aria-hidden="true">
+      <svg class="rigid weight" viewBox="0 0 48 48" aria-hidden="true">
         <path class="weight-ring" d="M9 36a17 17 0 1 1 30 0" />
         <path class="weight-body" d="M33 33l13 1-8 10z" />
         <text class="weight-torque" x="24" y="31" text-anchor="middle">
@@ -32,7 +32,7 @@ function WeightPicture({ isActive, form }: { isActive: boolean; form: WeightForm
     );
   }
   return (
-    <svg class="weight" viewBox="0 0 48 48" aria-hidden="true">
+    <svg class="rigid weight" viewBox="0 0 48 48" aria-hidden="true">
       {isActive && <path class="weight-cord" d="M24 0v16" />}
       <circle class="weight-ring" cx="24" cy="19" r="4.5" />
       <path class="weight-body" d="M14.5 24h19l5.5 19a3 3 0 0 1-3 4H12a3 3 0 0 1-3-4z" />
@@ -91,7 +91,7 @@ export function LoadButton({ state }: { state: SessionState }) {
     <div class="load-place" tabIndex={-1}>
       <button
         type="button"
-        class={`load-button ${isActive ? "is-hung" : ""}`}
+        class={`line loose load-button ${isActive ? "is-hung" : ""}`}
         aria-keyshortcuts="l"
         disabled={isBusy || !takesCommands.value || state.status === "fault"}
         onClick={() => void press()}

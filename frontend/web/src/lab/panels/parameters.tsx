@@ -96,7 +96,7 @@ export function ParameterTable({ actuator, nominal }: Models) {
   return (
     <>
       <p class="hint">{words.parametersHint}</p>
-      <table class="parameters">
+      <table class="small parameters">
         <thead>
           <tr>
             <th scope="col">{words.parameter}</th>
@@ -109,7 +109,7 @@ export function ParameterTable({ actuator, nominal }: Models) {
           {rows.map(({ key, symbol, meaning, demand }) => (
             <tr key={key}>
               <th scope="row">
-                <i>{symbol}</i> <small>{meaning}</small>
+                <i>{symbol}</i> <small class="block tiny">{meaning}</small>
               </th>
               {COLUMNS.map(({ column, patch }) => (
                 <Cell

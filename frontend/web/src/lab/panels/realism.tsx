@@ -112,7 +112,7 @@ function EffectList({ effects }: { effects: Effects }) {
   }
   const order = (row: EffectRow) => ["flag", "number"].indexOf(row.value?.kind ?? "");
   return (
-    <div class="effects">
+    <div class="stack tight small effects">
       {[...rows]
         .sort((one, other) => order(one) - order(other))
         .map((effect) => (

@@ -14,7 +14,7 @@ interface ListProps {
 function List({ label, rows, list, onList }: ListProps) {
   return (
     <textarea
-      class="listed"
+      class="block listed"
       rows={rows}
       spellcheck={false}
       aria-label={label}
@@ -40,7 +40,7 @@ export function Series({ list, onList }: Pick<ListProps, "list" | "onList">) {
   };
   return (
     <>
-      <label class="button csv-open">
+      <label class="button">
         {words.openCsv}
         <input
           type="file"

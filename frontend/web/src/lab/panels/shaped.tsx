@@ -144,7 +144,7 @@ export function Shaped({ follows, held, configuration }: ShapedProps) {
   };
 
   return (
-    <form class="shaped" onSubmit={submit}>
+    <form class="stack" onSubmit={submit}>
       <Choice label={words.kind} options={shapes} value={shape} onChoose={setShape} />
       {shape === "series" && <Series list={csv} onList={setCsv} />}
       {shape === "steps" &&
@@ -175,14 +175,14 @@ export function Shaped({ follows, held, configuration }: ShapedProps) {
         />
       )}
       <ErrorLine>{refusal}</ErrorLine>
-      <div class="shaped-acts">
-        <button type="submit" class="button" disabled={previewed === null}>
+      <div class="line">
+        <button type="submit" class="button grow" disabled={previewed === null}>
           {words.apply}
         </button>
         {isKnown && (
           <button
             type="button"
-            class="button"
+            class="button grow"
             title={words.againHint}
             onClick={() => void perform(`${follows}.shaped`, repeat(follows))}
           >
@@ -216,7 +216,7 @@ function Course({ preview, unit, factor }: CourseProps) {
     shown(preview.peak_rate),
   );
   return (
-    <figure class="course">
+    <figure class="sunken course">
       <svg
         viewBox={`0 -2 ${WIDTH} ${HEIGHT + 4}`}
         preserveAspectRatio="none"
@@ -225,7 +225,7 @@ function Course({ preview, unit, factor }: CourseProps) {
       >
         <polyline points={coursePath(preview.time_s, preview.value, WIDTH, HEIGHT)} />
       </svg>
-      <figcaption>{caption}</figcaption>
+      <figcaption class="hint">{caption}</figcaption>
     </figure>
   );
 }

@@ -24,7 +24,7 @@ interface StopNoticeProps {
 
 function StopNotice({ title, words, isSimulation = false, children }: StopNoticeProps) {
   return (
-    <div class={`banner is-stop ${isSimulation ? "is-simulation" : ""}`} role="alert">
+    <div class={`row banner is-stop ${isSimulation ? "is-simulation" : ""}`} role="alert">
       <span class="banner-sign" aria-hidden="true">
         ■
       </span>
@@ -47,7 +47,7 @@ function LatchedBench({ state, bench }: { state: SessionState; bench: BenchState
   const lostTitle = isClosed ? text.stop.closedTitle : text.stop.lostTitle;
   const lostSteps = isClosed ? text.stop.closedSteps : text.stop.lostSteps;
   return (
-    <div class="banner is-stop">
+    <div class="row banner is-stop">
       <span class="banner-sign" aria-hidden="true">
         ■
       </span>
@@ -59,7 +59,7 @@ function LatchedBench({ state, bench }: { state: SessionState; bench: BenchState
         </p>
         {/* The steps below say what to do after a quick stop. */}
         {!isLost && !isOfUser && state.fault !== null && <FaultAdvice fault={state.fault} />}
-        <ol class="bullets" aria-label={text.stop.goOn}>
+        <ol class="row bullets" aria-label={text.stop.goOn}>
           {(isLost ? lostSteps : text.stop.steps).map((step) => (
             <li key={step}>{step}</li>
           ))}
@@ -135,7 +135,7 @@ export function StopButton() {
   return (
     <button
       type="button"
-      class={`stop-button ${isSimulation ? "is-simulation" : "is-bench"}`}
+      class={`button rigid stop-button ${isSimulation ? "is-simulation" : "is-bench"}`}
       aria-keyshortcuts="Shift+Escape"
       title={isSimulation ? text.stop.doesSimulation : text.stop.doesBench}
       onClick={() => void pressStop()}

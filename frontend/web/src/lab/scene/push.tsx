@@ -36,7 +36,7 @@ function Band() {
   const now = pull.value;
   if (now === null) return null;
   return (
-    <svg class="push-band" aria-hidden="true">
+    <svg class="fill push-band" aria-hidden="true">
       <line x1={now.from.x} y1={now.from.y} x2={now.x} y2={now.y} />
       <circle cx={now.from.x} cy={now.from.y} r="5" />
       <text x={now.x + 14} y={now.y - 10}>
@@ -100,7 +100,7 @@ export function PushLayer() {
       <button
         ref={layer}
         type="button"
-        class="push-layer"
+        class="fill push-layer"
         aria-label={text.scene.pushLayer}
         onPointerDown={startPull}
         onPointerMove={(event) => {

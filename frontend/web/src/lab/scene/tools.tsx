@@ -13,7 +13,7 @@ function PushButton() {
   return (
     <button
       type="button"
-      class="button tool"
+      class="button is-small tool"
       aria-pressed={isPushing.value}
       title={words.pushHint}
       onClick={() => {
@@ -34,7 +34,7 @@ function NamesButton() {
   return (
     <button
       type="button"
-      class="button tool is-icon"
+      class="button is-small tool is-icon"
       aria-pressed={areNamesOn.value}
       aria-label={words.names}
       aria-keyshortcuts="N"
@@ -55,24 +55,24 @@ export function SceneTools({ isBasic }: { isBasic: boolean }) {
   return (
     <>
       {isPushing.value && <PushLayer />}
-      <div class="scene-tools" data-over-picture role="toolbar" aria-label={words.tools}>
+      <div class="line tight scene-tools" data-over-picture role="toolbar" aria-label={words.tools}>
         {cameraNames(sceneKind()).map((name) => (
           <button
             key={name}
             type="button"
-            class="button tool"
+            class="button is-small tool"
             aria-label={words.cameraHint(words.cameras[name])}
             onClick={() => setCamera(name)}
           >
             {words.cameras[name]}
           </button>
         ))}
-        <span class="end scene-tools-end">
+        <span class="line tight end">
           <PushButton />
           <NamesButton />
           <button
             type="button"
-            class="button tool is-icon"
+            class="button is-small tool is-icon"
             aria-pressed={isLow.value}
             aria-label={words.low}
             title={`${words.low}: ${words.lowHint}`}

@@ -83,7 +83,7 @@ export function CallsDrawer() {
   if (!isDrawerOpen.value) return null;
   const isEmpty = calls.value.length === 0;
   return (
-    <section class="drawer" aria-label={words.title}>
+    <section class="column joined rigid drawer" aria-label={words.title}>
       <div class="row drawer-head">
         <h2>{words.title}</h2>
         <Choice

@@ -145,7 +145,7 @@ export function TunePanel() {
 function Tune() {
   useEffect(() => void findNewest(), []);
   return (
-    <Panel title={words.title} class="tuning" onClose={close}>
+    <Panel title={words.title} class="is-wide tuning" onClose={close}>
       <div class="stack">
         <p class="hint">{words.about}</p>
         <Choice />

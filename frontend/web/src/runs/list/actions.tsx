@@ -22,7 +22,7 @@ const tickAt = (run: RunDetails, moment: number): number =>
 function Branch({ run, moment }: { run: RunDetails; moment: number }) {
   const [isBusy, setBusy] = useState(false);
   if (run.plant !== "simulated") {
-    return <span class="hint run-bench">{words.branchBench}</span>;
+    return <span class="hint">{words.branchBench}</span>;
   }
   const branch = async () => {
     setBusy(true);
@@ -56,7 +56,7 @@ function MakingNote({ run }: { run: RunDetails }) {
   }, [stage]);
   return (
     <span
-      class={`hint run-making ${stage === "failed" ? "problem" : ""}`}
+      class={`hint block ${stage === "failed" ? "problem" : ""}`}
       aria-busy={stage === "making"}
     >
       <span role="status">
@@ -124,7 +124,7 @@ export function RunActions({ run, moment }: { run: RunDetails; moment: number })
     if (await moveToTrash(run.id)) goTo({ kind: "list" });
   };
   return (
-    <div class="row run-actions">
+    <div class="row tabular">
       <Branch run={run} moment={moment} />
       <CopyButton read={link} hint={words.linkHint}>
         {words.link}

@@ -22,6 +22,8 @@ export interface Column {
   /** Whether the first click sorts in descending order. */
   isDownFirst?: boolean;
   isNumber?: boolean;
+  /** In a table with headers. */
+  width: string;
   /** Whether the automatic name of the run contains it, too. */
   isInName?: boolean;
   show: (run: RunSummary) => ComponentChildren;
@@ -72,6 +74,7 @@ const measureOf = (
 ) => ({
   ...heading,
   key,
+  width: "108px",
   sort: measure,
   isDownFirst: true,
   isNumber: true,
@@ -93,6 +96,7 @@ function figureOf({ settings }: Pick<RunSummary, "settings">): string {
 export const COLUMNS: readonly Column[] = [
   {
     key: "figure",
+    width: "clamp(78px, 12vw - 75px, 96px)",
     name: words.columns.figure,
     sort: "figure",
     isInName: true,
@@ -101,6 +105,7 @@ export const COLUMNS: readonly Column[] = [
   },
   {
     key: "laws",
+    width: "118px",
     name: words.columns.law,
     sort: "laws",
     isInName: true,
@@ -108,6 +113,7 @@ export const COLUMNS: readonly Column[] = [
   },
   {
     key: "stiffness",
+    width: "clamp(62px, 12vw - 92px, 78px)",
     name: words.columns.stiffness,
     hint: words.columns.stiffnessHint,
     label: words.columns.stiffness,
@@ -117,6 +123,7 @@ export const COLUMNS: readonly Column[] = [
   },
   {
     key: "load",
+    width: "clamp(82px, 20vw - 174px, 112px)",
     name: words.columns.load,
     sort: "load",
     isInName: true,
@@ -124,6 +131,7 @@ export const COLUMNS: readonly Column[] = [
   },
   {
     key: "effects",
+    width: "84px",
     name: words.columns.effects,
     hint: words.columns.effectsHint,
     sort: "effects",
@@ -132,6 +140,7 @@ export const COLUMNS: readonly Column[] = [
   },
   {
     key: "window",
+    width: "clamp(178px, 12vw + 24px, 194px)",
     name: words.columns.window,
     hint: words.columns.windowHint,
     show: windowOf,
@@ -148,6 +157,8 @@ export const COLUMNS: readonly Column[] = [
       hint: words.columns.steadyStateHint,
       label: words.settled,
     }),
+    // Both values of two lanes.
+    width: "clamp(108px, 20vw - 148px, 140px)",
     hintOf: (run) =>
       run.window === null
         ? undefined
@@ -160,6 +171,7 @@ export const COLUMNS: readonly Column[] = [
   }),
   {
     key: "duration",
+    width: "74px",
     name: words.columns.duration,
     sort: "duration_s",
     isDownFirst: true,
@@ -168,6 +180,7 @@ export const COLUMNS: readonly Column[] = [
   },
   {
     key: "created",
+    width: "112px",
     name: words.columns.created,
     sort: "created",
     isDownFirst: true,

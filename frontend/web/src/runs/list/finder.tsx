@@ -64,7 +64,7 @@ function SortChoice() {
 
 export function Finder() {
   return (
-    <search class="grow runs-finder">
+    <search class="line grow runs-finder">
       <label class="runs-search">
         <span class="visually-hidden">{words.search}</span>
         <input

@@ -80,8 +80,8 @@ function OverlayPlot(props: PlotProps) {
   const { title, unit } = TITLES[channel];
   const host = useStaticChart(useMemo(() => describeChart(props), [channel, curves, judged, view]));
   return (
-    <section class="overlay-plot" aria-label={title}>
-      <h3>
+    <section class="column joined overlay-plot" aria-label={title}>
+      <h3 class="small">
         {title} <span class="unit">{unit}</span>
       </h3>
       <div class="grow overlay-canvas" ref={host} title={words.hint} />
@@ -164,7 +164,7 @@ export function OverlayPage({ runs }: { runs: readonly string[] }) {
       {curves === null && <p class="empty">{text.runs.loading}</p>}
       {curves?.length === 0 && <p class="empty">{words.nothing}</p>}
       {curves && curves.length > 0 && (
-        <div class="surface overlay">
+        <div class="surface column overlay">
           <OverlayCurves curves={curves} judged={judged} />
           {runs.length > 1 && (
             <VerdictPanel key={key} curves={curves} judged={judged} onJudged={setJudged} />

@@ -56,7 +56,7 @@ export function ReplayFrame({ source, name, startS, onMoment }: ReplayFrameProps
   }, [onMoment]);
   useSignalEffect(() => replayOf()?.setTheme(theme.value));
   return (
-    <div class="replay-place">
+    <div class="column joined replay-place">
       {answer === null && (
         <p class="muted replay-waiting" role="status">
           {text.run.waiting}

@@ -31,14 +31,14 @@ function useOverview({ id, ticks }: RunSummary): RunOverview | null {
 function State({ run }: { run: RunSummary }) {
   if (run.fault !== null) {
     return (
-      <strong class="run-state is-fault" title={run.fault.message}>
+      <strong class="bad small run-state is-fault" title={run.fault.message}>
         ▲ <Highlighted>{run.fault.label}</Highlighted>
       </strong>
     );
   }
   if (run.state === "complete") return null;
   return (
-    <strong class={`run-state is-${run.state}`} title={run.message}>
+    <strong class={`bad small run-state is-${run.state}`} title={run.message}>
       {run.state === "recording" ? "● " : "▲ "}
       {words.state[run.state]}
     </strong>
@@ -63,7 +63,7 @@ function Remove({ run }: { run: RunSummary }) {
   return (
     <button
       type="button"
-      class="button is-icon run-delete"
+      class="button is-small is-icon muted run-delete"
       aria-label={words.removeThis(run.title)}
       title={words.remove}
       disabled={run.state === "recording"}
@@ -81,7 +81,7 @@ function Name({ run }: { run: RunSummary }) {
   const notes = [run.notes, run.message, run.note].filter((note) => note !== "").join(" · ");
   return (
     <th scope="row" class="run-what">
-      <div class="run-title">
+      <div class="line run-title">
         {run.deleted === null ? (
           <PlaceLink
             to={{ kind: "run", run: run.id, timeS: 0 }}

@@ -81,7 +81,7 @@ function About({ run, onChanged }: AboutProps) {
         {run.name !== "" && run.settings && <span class="hint clip">{run.settings.name}</span>}
         {run.branch_of && <OriginLink origin={run.branch_of} />}
         {run.fault && (
-          <strong class="run-state is-fault" title={run.fault.message}>
+          <strong class="bad small run-state is-fault" title={run.fault.message}>
             ▲ {text.runs.fault(run.fault.label)}
           </strong>
         )}
@@ -151,7 +151,7 @@ export function RunPage({ run: id, timeS }: { run: string; timeS: number }) {
   if (isMissing) return <Missing />;
   if (run === null) {
     return (
-      <div class="run-head">
+      <div class="bar run-head">
         <PlaceLink to={{ kind: "list" }} class="button">
           ← {words.toList}
         </PlaceLink>
@@ -160,7 +160,7 @@ export function RunPage({ run: id, timeS }: { run: string; timeS: number }) {
   }
   return (
     <>
-      <div class="run-head">
+      <div class="bar run-head">
         <PlaceLink to={{ kind: "list" }} class="button">
           ← {words.toList}
         </PlaceLink>

@@ -18,7 +18,7 @@ function Inside({ at }: { at: RunsPlace }) {
 function Undo() {
   const run = deleted.value;
   return (
-    <div class="undo" role="status" hidden={run === null}>
+    <div class="line loose floating undo" role="status" hidden={run === null}>
       {run && (
         <>
           <span>{text.runs.deleted(run.title)}</span>

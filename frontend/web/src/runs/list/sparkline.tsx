@@ -97,7 +97,7 @@ export function Sparkline({ overview }: { overview: RunOverview | null }) {
     : text.runs.noSparkline;
   return (
     <svg
-      class="sparkline"
+      class="block sparkline"
       viewBox={`0 0 ${WIDTH} ${HEIGHT}`}
       preserveAspectRatio="none"
       role="img"

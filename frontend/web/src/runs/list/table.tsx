@@ -7,22 +7,24 @@ import { RunRow } from "./row";
 
 const words = text.runs;
 
-interface HeadProps extends Pick<Column, "name" | "hint" | "sort" | "isDownFirst" | "isNumber"> {
+interface HeadProps
+  extends Pick<Column, "name" | "hint" | "sort" | "isDownFirst" | "isNumber">,
+    Partial<Pick<Column, "width">> {
   class: string;
 }
 
-function Head({ name, hint, sort: column, isDownFirst, isNumber, ...rest }: HeadProps) {
+function Head({ name, hint, sort: column, isDownFirst, isNumber, width, ...rest }: HeadProps) {
   const look = `${rest.class} ${isNumber ? "number" : ""}`;
   if (column === undefined) {
     return (
-      <th scope="col" class={`${look} is-plain`} title={hint}>
+      <th scope="col" class={`${look} is-plain`} style={{ width }} title={hint}>
         {name}
       </th>
     );
   }
   return (
     <SortHead
-      column={{ key: column, isDownFirst, class: look }}
+      column={{ key: column, isDownFirst, class: look, width }}
       words={{ name, hint }}
       sort={sort.value}
       onSort={(next) => changeQuery({ sort: next })}

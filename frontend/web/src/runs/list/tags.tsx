@@ -45,7 +45,7 @@ export function Tags({ run, onChanged, onRefused }: TagsProps) {
             {text.runs.addTag}
           </button>
         ) : (
-          <form class="tag-form" onSubmit={add}>
+          <form class="line tag-form" onSubmit={add}>
             <label class="visually-hidden" for={id}>
               {text.runs.newTag}
             </label>

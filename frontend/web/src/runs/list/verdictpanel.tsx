@@ -73,7 +73,7 @@ export function VerdictPanel({ curves, judged, onJudged }: VerdictPanelProps) {
         {words.title} <small class="unit">{words.hint}</small>
       </h3>
       <form
-        class="form verdict-form"
+        class="form cells verdict-form"
         onSubmit={(event) => {
           event.preventDefault();
           void judge();

@@ -24,7 +24,7 @@ function Row({ one }: { one: CurveAssessment }) {
   return (
     <tr>
       <th scope="row">
-        <span class="metrics-name">
+        <span class="line joined metrics-name">
           <Swatch look={one.curve.lineStyle} />
           {nameCurve(one.curve)}
         </span>

@@ -34,14 +34,14 @@ export function Header({ run }: { run: Run }) {
   const dialog = useRef<HTMLDialogElement>(null);
   const facts = Object.entries(run.details).filter(([, value]) => value !== "" && isPlain(value));
   return (
-    <header>
+    <header class="bar">
       <div class="name">
         <h1 class="clip">{run.title}</h1>
         <p class="hint">
           {text.name}, {text.recorded}
         </p>
       </div>
-      <dl class="run-facts">
+      <dl class="grow small run-facts">
         {facts.slice(0, 4).map(([key, value]) => (
           <div key={key}>
             <dt>{words(key)}</dt>
@@ -54,8 +54,8 @@ export function Header({ run }: { run: Run }) {
       <button type="button" class="button" onClick={() => dialog.current?.showModal()}>
         {about.open}
       </button>
-      <dialog ref={dialog} class="about" aria-label={about.open}>
-        <div class="spread about-head">
+      <dialog ref={dialog} class="floating about" aria-label={about.open}>
+        <div class="spread tabular about-head">
           <h2>{about.open}</h2>
           <button type="button" class="button" onClick={() => dialog.current?.close()}>
             {about.close}

@@ -5,6 +5,8 @@
 import "uplot/dist/uPlot.min.css";
 import "../../theme.css";
 import "../../base.css";
+import "../../parts.css";
+import "../../primitives.css";
 import "../../core/widgets/plantmark.css";
 import "../../lab/scene/labels.css";
 import "../../core/plots/plots.css";

@@ -62,7 +62,7 @@ function Scrubber({ recording: { run, endS } }: { recording: Recording }) {
 
 export function Transport({ recording }: { recording: Recording }) {
   return (
-    <section class="transport" aria-label={transport.heading}>
+    <section class="bar is-foot transport" aria-label={transport.heading}>
       <button
         type="button"
         class="button is-primary play"

@@ -72,7 +72,7 @@ export function View({ recording: { run, arrays } }: { recording: Recording }) {
       {state === "shown" && <SceneLabels frame={present} />}
       <PlantMark kind={findMark(run)} />
       {state === "failed" && <p class="muted view-problem">{text.noView}</p>}
-      <ul class="row view-legend">
+      <ul class="row small view-legend">
         {plants.map((name, index) => (
           <li key={`${index}.${name}`}>
             {index === 0 ? (

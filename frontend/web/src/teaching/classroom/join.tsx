@@ -137,10 +137,10 @@ export const rejoinCode = signal("");
 export function RejoinCodeBanner() {
   if (rejoinCode.value === "") return null;
   return (
-    <div class="banner is-news" role="status">
+    <div class="row banner is-news" role="status">
       <p>
         <strong>{words.rejoinCodeTitle}</strong>{" "}
-        <code class="class-return">{rejoinCode.value}</code> {words.rejoinCodeText}
+        <code class="strong nowrap class-return">{rejoinCode.value}</code> {words.rejoinCodeText}
       </p>
       <button
         type="button"

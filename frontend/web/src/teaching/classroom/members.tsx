@@ -40,7 +40,7 @@ export function Members({ attempt }: { attempt: (act: () => Promise<unknown>) =>
       {renewed.value !== null && (
         <p role="status">
           {words.codeOnce(renewed.value.member.name)}{" "}
-          <code class="class-return">{renewed.value.code}</code>
+          <code class="strong nowrap class-return">{renewed.value.code}</code>
         </p>
       )}
       {members.value !== null && (

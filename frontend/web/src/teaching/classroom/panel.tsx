@@ -60,7 +60,7 @@ function Inside() {
     return () => clearInterval(timer);
   }, []);
   return (
-    <div class="stack class-body">
+    <div class="stack loose class-body">
       <ErrorLine>{note.value}</ErrorLine>
       {isInstructor.value && (
         <div class="row">

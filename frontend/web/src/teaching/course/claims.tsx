@@ -76,14 +76,16 @@ function Result({ figure, result }: { figure: Figure; result: FigureResult }) {
       </blockquote>
       <ErrorPlot course={course} />
       <NumbersTable numbers={claim.numbers} />
-      <ul class="small findings">
+      <ul class="small">
         {claim.parts.map(({ part, holds }) => (
-          <li key={part}>
+          <li key={part} class="line">
             <span class={holds ? "good" : "bad"} aria-hidden="true">
               {holds ? words.holdsSign : words.holdsNotSign}
             </span>
             {words.parts[part]}
-            <strong class={holds ? "good" : "bad"}>{holds ? words.holds : words.holdsNot}</strong>
+            <strong class={`end ${holds ? "good" : "bad"}`}>
+              {holds ? words.holds : words.holdsNot}
+            </strong>
           </li>
         ))}
       </ul>

@@ -40,7 +40,7 @@ export function ErrorPlot({ course }: { course: ErrorHistory }) {
   const [fl, ndobc] = course.positionRad;
   return (
     <svg
-      class="drawing course"
+      class="drawing sunken course"
       viewBox={`0 0 ${WIDTH} ${HEIGHT}`}
       role="img"
       aria-label={text.claims.curve}

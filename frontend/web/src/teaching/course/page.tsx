@@ -16,7 +16,7 @@ function ExerciseCard({ of }: { of: ExerciseSummary }) {
   const isDone = of.submitted_at !== null;
   const word = isDone ? lesson.look : of.done > 0 ? lesson.goOn : lesson.begin;
   return (
-    <li class="surface card exercise-card">
+    <li class="surface card column exercise-card">
       <p class="hint">
         {lesson.exercise(of.number)} · {lesson.minutes(of.minutes)} ·{" "}
         {lesson.pointsAndLaw(of.max_points, of.law_points)}
@@ -72,10 +72,10 @@ export function LearnPage() {
         </button>
       }
     >
-      <section aria-label={lesson.exercises}>
+      <section class="stack" aria-label={lesson.exercises}>
         <h3>{lesson.exercises}</h3>
         {exercises.value === null && problem.value === "" && <p class="hint">{lesson.loading}</p>}
-        <ul class="exercise-cards">
+        <ul class="cells" style={{ "--cell": "320px", gap: "var(--gap)" }}>
           {exercises.value?.map((one) => (
             <ExerciseCard key={one.name} of={one} />
           ))}

@@ -25,7 +25,7 @@ export function Question({ of, onDone }: Omit<TaskProps, "exercise">) {
       <fieldset disabled={given !== null}>
         <legend class="visually-hidden">{of.title}</legend>
         {of.options.map((one) => (
-          <label key={one.name} class="lesson-option">
+          <label key={one.name} class="line lesson-option">
             <input
               type="radio"
               name={of.name}

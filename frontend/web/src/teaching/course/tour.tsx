@@ -129,14 +129,14 @@ function Card({ index }: { index: number }) {
           }}
         />
       )}
-      <section ref={card} class="tour" aria-label={words.label} onKeyDown={turn}>
+      <section ref={card} class="floating stack tour" aria-label={words.label} onKeyDown={turn}>
         <p class="hint tour-count">{words.of(index + 1, STEPS.length)}</p>
         <h2>{title}</h2>
         <div aria-live="polite">
           <p translate>{explanation}</p>
         </div>
-        <div class="row tour-buttons">
-          <button type="button" class="quiet" onClick={endTour} title={words.keys}>
+        <div class="row">
+          <button type="button" class="quiet start" onClick={endTour} title={words.keys}>
             {words.skip}
           </button>
           {index > 1 && (

@@ -15,11 +15,12 @@ const words = text.lesson;
 function Steps({ found, at }: { found: Exercise; at: Step }) {
   return (
     <nav aria-label={words.steps}>
-      <ol class="lesson-steps">
+      <ol class="row lesson-steps">
         {found.parts.map((one, index) => (
           <li key={one.name} class={one.done ? "is-done" : ""}>
             <PlaceLink
               to={{ kind: "learn", exercise: found.name, step: one.name }}
+              class="button is-icon"
               title={`${words.kinds[one.kind]}: ${one.title}`}
               isHere={one.name === at.name}
             >
@@ -62,7 +63,7 @@ function Turn({ found, at }: { found: Exercise; at: Step }) {
       </PlaceLink>
     );
   return (
-    <p class="spread lesson-turn">
+    <p class="spread divided">
       {link(found.parts[index - 1], `← ${words.previous}`, "button")}
       {link(
         found.parts[index + 1],
@@ -118,11 +119,9 @@ export function Lesson({ name }: { name: string }) {
               <Prose html={found.html} />
             </div>
           )}
-          <h3 ref={heading} tabIndex={-1}>
-            <small class="tag lesson-kind">{words.kinds[at.kind]}</small> {at.title}
-            {at.max_points > 0 && (
-              <small class="lesson-points">{words.points(at.max_points)}</small>
-            )}
+          <h3 class="line" ref={heading} tabIndex={-1}>
+            <small class="tag tone is-accent">{words.kinds[at.kind]}</small> {at.title}
+            {at.max_points > 0 && <small class="rigid end">{words.points(at.max_points)}</small>}
           </h3>
           <Prose html={at.html} />
           <Task found={found} at={at} />

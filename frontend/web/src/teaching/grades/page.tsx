@@ -43,7 +43,7 @@ function Cell({ student, exercise }: { student: Student; exercise: string }) {
     <td>
       <button
         type="button"
-        class={submission.problem === "" ? "nowrap" : "nowrap bad"}
+        class={submission.problem === "" ? "button is-small" : "button is-small bad"}
         aria-pressed={isShown}
         onClick={() => {
           selection.value = isShown ? null : { person: student.person, exercise };

@@ -20,7 +20,7 @@ export function WorstRun() {
   );
   if (entry === undefined) {
     return (
-      <div class="run-head">
+      <div class="bar run-head">
         {back}
         {board.value !== null && <p>{words.unknown}</p>}
       </div>
@@ -31,7 +31,7 @@ export function WorstRun() {
   const error = worst.rms_deg === null ? words.ended : words.rms(formatNumber(worst.rms_deg));
   return (
     <>
-      <div class="run-head">
+      <div class="bar run-head">
         {back}
         <div class="grow">
           <h2>{words.worstOf(name)}</h2>
