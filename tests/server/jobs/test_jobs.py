@@ -172,11 +172,12 @@ def test_job_of_a_user_ends_at_its_time_limit_and_the_next_one_runs(
     monkeypatch.setattr(job_module, "GRACE_S", 0.5)
 
     async def outstay(jobs):
-        # The time of a job includes the start of the first worker, which takes seconds.
+        # The time of a job includes the start of a worker, which takes seconds: the first job and
+        # the one after the end of the worker are of the instructor, who has no limit.
         first = jobs.start("study", "first", count, 1, INSTRUCTOR.id)
         await wait_until(lambda: first.status == "done")
         job = jobs.start("study", "long", work, 10**6, "a")
-        after = jobs.start("study", "next", count, 2, "b")
+        after = jobs.start("study", "next", count, 2, INSTRUCTOR.id)
         await wait_until(lambda: not job.is_under_way)
         assert job.status == "failed"
         assert "Stopped after 3 s" in job.problem
