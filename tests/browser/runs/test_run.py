@@ -4,7 +4,7 @@ import re
 from urllib.parse import parse_qs, urlsplit
 
 import pytest
-from playwright.sync_api import Page, Route, expect
+from playwright.sync_api import Page, Response, Route, expect
 
 from tests.browser.runs.recorded import BOTH, STIFF, is_change
 from tests.browser.test_page import WORKER_MS, show_all_controls
@@ -27,6 +27,10 @@ def test_replay_has_no_controls_of_the_live_session(
     top.get_by_role("link", name="Lab", exact=True).click()
     show_all_controls(page)
     expect(top.get_by_role("button", name="Record", exact=True)).to_be_visible()
+
+
+def is_change_of_notes(answer: Response) -> bool:
+    return is_change(answer) and answer.ok and "notes" in answer.request.post_data_json
 
 
 @pytest.mark.usefixtures("without_replay")

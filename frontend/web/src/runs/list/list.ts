@@ -99,9 +99,31 @@ function applyRun(run: RunSummary): void {
   runList.value = { ...list, runs: list.runs.map((row) => (row.id === run.id ? run : row)) };
 }
 
-/** Null if it was rejected; the list then has the current state of the run. */
+let lastChange: Promise<RunSummary | null> | null = null;
+
+/** The newer of two states of a run, if the fields of the patch are equal in both. */
+function chooseBase(run: RunSummary, newer: RunSummary | null, patch: RunPatch): RunSummary {
+  if (newer?.id !== run.id) return run;
+  const isEqual = (Object.keys(patch) as (keyof RunPatch & keyof RunSummary)[]).every(
+    (field) => JSON.stringify(newer[field]) === JSON.stringify(run[field]),
+  );
+  return isEqual ? newer : run;
+}
+
+/**
+ * Null if it was rejected; the list then has the current state of the run. A change during the
+ * previous one waits for its answer, which has the revision for a change of other fields.
+ */
 export async function patchRun(run: RunSummary, patch: RunPatch): Promise<RunSummary | null> {
-  const answer = await attempt(() => changeRun(run, patch));
+  const previousChange = lastChange;
+  const change = async () => {
+    const newer = await previousChange;
+    return attempt(() => changeRun(chooseBase(run, newer, patch), patch));
+  };
+  const ownChange = change();
+  lastChange = ownChange;
+  const answer = await ownChange;
+  if (lastChange === ownChange) lastChange = null;
   if (answer) applyRun(answer);
   if (answer === null || patch.tags) void refresh();
   return answer;
