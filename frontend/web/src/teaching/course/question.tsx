@@ -9,7 +9,7 @@ const words = text.lesson;
 export function Question({ of, onDone }: Omit<TaskProps, "exercise">) {
   const [chosen, setChosen] = useState("");
   const [isSent, setSent] = useState(false);
-  const given = of.answer;
+  const savedAnswer = of.answer;
   return (
     <form
       class="stack lesson-form"
@@ -22,22 +22,22 @@ export function Question({ of, onDone }: Omit<TaskProps, "exercise">) {
         });
       }}
     >
-      <fieldset disabled={given !== null}>
+      <fieldset disabled={savedAnswer !== null}>
         <legend class="visually-hidden">{of.title}</legend>
-        {of.options.map((one) => (
-          <label key={one.name} class="line lesson-option">
+        {of.options.map((option) => (
+          <label key={option.name} class="line lesson-option">
             <input
               type="radio"
               name={of.name}
-              value={one.name}
-              checked={(given ?? chosen) === one.name}
-              onChange={() => setChosen(one.name)}
+              value={option.name}
+              checked={(savedAnswer ?? chosen) === option.name}
+              onChange={() => setChosen(option.name)}
             />
-            <span>{one.text}</span>
+            <span>{option.text}</span>
           </label>
         ))}
       </fieldset>
-      {given === null && (
+      {savedAnswer === null && (
         <>
           <small>{words.chosenOnce}</small>
           <button type="submit" class="button is-primary" disabled={chosen === "" || isSent}>
