@@ -116,8 +116,8 @@ class RunningLaw:
         self._opened.close()
 
     def read_output(self) -> str:
-        """Return the end of the law's output to stdout and stderr, without the folder of Python,
-        which may contain a user's name.
+        """Return the end of the law's output to stdout and stderr, without the path of the Python
+        installation, which may contain the name of a user.
         """
         # `pread`, because the position of the file is where the law's next output goes.
         descriptor = self._output.fileno()
