@@ -4,6 +4,7 @@ import { changeRun, deleteRun, listRuns, restoreRun } from "../../core/api/runs"
 import type { RunList, RunPatch, RunSummary } from "../../core/api/types";
 import { createReader } from "../../core/jobs/poll";
 import { showErrorIn } from "../../core/state/actions";
+import { isEqual } from "../../core/state/changes";
 import { attempt, runsProblem } from "./problem";
 
 export const PAGE_SIZE = 20;
@@ -35,6 +36,10 @@ const read = createReader(showErrorIn(runsProblem));
 
 export async function refresh(): Promise<void> {
   runsProblem.value = "";
+  await readList();
+}
+
+async function readList(): Promise<void> {
   const query = {
     search: search.peek().trim(),
     filters: filters.peek(),
@@ -104,10 +109,8 @@ let lastChange: Promise<RunSummary | null> | null = null;
 /** The newer of two states of a run, if the fields of the patch are equal in both. */
 function chooseBase(run: RunSummary, newer: RunSummary | null, patch: RunPatch): RunSummary {
   if (newer?.id !== run.id) return run;
-  const isEqual = (Object.keys(patch) as (keyof RunPatch & keyof RunSummary)[]).every(
-    (field) => JSON.stringify(newer[field]) === JSON.stringify(run[field]),
-  );
-  return isEqual ? newer : run;
+  const fields = Object.keys(patch) as (keyof RunPatch & keyof RunSummary)[];
+  return fields.every((field) => isEqual(newer[field], run[field])) ? newer : run;
 }
 
 /**
@@ -125,7 +128,8 @@ export async function patchRun(run: RunSummary, patch: RunPatch): Promise<RunSum
   const answer = await ownChange;
   if (lastChange === ownChange) lastChange = null;
   if (answer) applyRun(answer);
-  if (answer === null || patch.tags) void refresh();
+  // The reason of a rejection stays.
+  if (answer === null || patch.tags) void readList();
   return answer;
 }
 

@@ -9,19 +9,25 @@ const run = {
   notes: "",
   tags: [""],
 } as unknown as RunSummary;
+const listRuns = vi.fn().mockResolvedValue({ runs: [], total: 0 });
 const changeRun = vi.fn<(base: RunSummary, patch: RunPatch) => Promise<RunSummary>>();
 let patchRun: typeof import("../../../src/runs/list/list").patchRun;
+let RefusedError: typeof import("../../../src/core/api/errors").RefusedError;
+let runsProblem: typeof import("../../../src/runs/list/problem").runsProblem;
 
 beforeAll(async () => {
   vi.doMock("../../../src/core/api/runs", async (load) => ({
     ...(await load<object>()),
     changeRun,
-    listRuns: vi.fn().mockResolvedValue({ runs: [], total: 0 }),
+    listRuns,
   }));
   ({ patchRun } = await import("../../../src/runs/list/list"));
+  ({ RefusedError } = await import("../../../src/core/api/errors"));
+  ({ runsProblem } = await import("../../../src/runs/list/problem"));
 });
 
 beforeEach(() => {
+  listRuns.mockClear();
   changeRun.mockReset().mockImplementation(async (base, patch) => ({
     ...base,
     ...(patch as Partial<RunSummary>),
@@ -51,4 +57,11 @@ it("is of the displayed revision for another run, after a rejection, and later",
   ]);
   await patchRun({ ...run, revision: "5" }, { notes: "again" });
   expect(listRevisions()).toEqual(["1", "1", "7", "5"]);
+});
+
+it("shows why it was rejected, also after the list was read again", async () => {
+  changeRun.mockRejectedValueOnce(new RefusedError(412, "The run was changed."));
+  expect(await patchRun(run, { notes: "steady" })).toBeNull();
+  await vi.waitFor(() => expect(listRuns).toHaveBeenCalled());
+  expect(runsProblem.value).toBe("The run was changed.");
 });
