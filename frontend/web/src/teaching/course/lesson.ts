@@ -196,15 +196,28 @@ export async function follow(): Promise<void> {
     await perform(CONTROL_OF_LESSON, stopRecording);
     if (state.status === "running") await perform(CONTROL_OF_LESSON, pause);
   }
-  await attempt("assess", () => assess(now));
-  activeRun.value = null;
+  if (await awaitRecord(now.run, !isRecorded)) {
+    await attempt("assess", () => assess(now));
+    activeRun.value = null;
+  } else activeRun.value = now;
+}
+
+/**
+ * Wait until a run is complete; false if it is still recorded. mayContinue: the page did not stop
+ * it, and a state from before its start may have come late.
+ */
+async function awaitRecord(run: string, mayContinue: boolean): Promise<boolean> {
+  for (let tries = 0; tries < MAX_FILE_POLLS; tries++) {
+    if (await isFinished(run)) return true;
+    const recording = session.peek()?.recording;
+    const isRecording = recording?.run_id === run && recording.state === "recording";
+    if (mayContinue && isRecording) return false;
+    await new Promise((resolve) => setTimeout(resolve, FILE_POLL_MS));
+  }
+  return true;
 }
 
 async function assess(now: StepRun): Promise<void> {
-  for (let tries = 0; tries < MAX_FILE_POLLS; tries++) {
-    if (await isFinished(now.run)) break;
-    await new Promise((resolve) => setTimeout(resolve, FILE_POLL_MS));
-  }
   const results = await checkRun(now.exercise, now.step, now.run);
   lastAssessment.value = { step: now.step, run: now.run, results };
   applyExercise(await readExercise(now.exercise));

@@ -226,6 +226,25 @@ describe("the run of a step", () => {
     expect(lesson.activeRun.value).toMatchObject({ exercise: "mechanism", step: "lever" });
   });
 
+  it("continues after a state from before its recording that comes late", async () => {
+    vi.useFakeTimers();
+    record();
+    await lesson.run(step("lever"));
+    calls.readRun.mockResolvedValue({ state: "recording" });
+    session.value = state();
+    const checked = lesson.follow();
+    session.value = state({ time_s: 2, recording });
+    await vi.advanceTimersByTimeAsync(20_000);
+    await checked;
+    vi.useRealTimers();
+    expect(calls.checkRun).not.toHaveBeenCalled();
+    calls.readRun.mockResolvedValue({ state: "complete" });
+    session.value = state({ time_s: 6, recording });
+    await lesson.follow();
+    expect(calls.checkRun).toHaveBeenCalledOnce();
+    expect(calls.stopRecording).toHaveBeenCalledOnce();
+  });
+
   it("is assessed only after its record is complete", async () => {
     vi.useFakeTimers();
     session.value = state({ time_s: 6, recording });
