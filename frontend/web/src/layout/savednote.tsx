@@ -3,7 +3,7 @@ import { text } from "../core/text/en";
 import { isLabShown, PlaceLink, place } from "../runs/list/place";
 import { type SaveStatus, saveStatus } from "../runs/list/saved";
 import { formatDuration } from "../runs/list/words";
-import { isRunOfLesson } from "../teaching/course/lesson";
+import { isRunOfLesson } from "../teaching/course/steprun";
 
 const words = text.recording;
 

@@ -9,21 +9,10 @@ import { Problem } from "../../core/widgets/form";
 import { isSwitchHeld } from "../../hardware/hold";
 import { PlaceLink } from "../../runs/list/place";
 import { criteriaOf, dueManualLoad, isOfSession, isPossibleOn, readinessOf } from "./benchstep";
-import {
-  activeRun,
-  CONTROL_OF_LESSON,
-  follow,
-  isBusy,
-  lastAssessment,
-  restoreLab,
-  resultsOf,
-  resume,
-  run,
-  setUp,
-  type TaskProps,
-} from "./lesson";
+import { isBusy, restoreLab, type TaskProps } from "./lesson";
 import { CutOff, Obstacle } from "./obstacle";
 import { Results } from "./results";
+import { CONTROL_OF_LESSON, follow, resultsOf, resume, run, setUp, stepRun } from "./steprun";
 
 const words = text.lesson;
 
@@ -53,7 +42,7 @@ function ManualLoads({ of }: { of: Step }) {
   if (now === null || of.bench === null || of.bench.manual_loads.length === 0) return null;
   if (now.emulated) return <p class="hint">{words.loadOfEmulator}</p>;
   const { manual_load: what, manual_loads: loads } = of.bench;
-  if (activeRun.value?.step !== of.name) {
+  if (stepRun.value.active?.step !== of.name) {
     return <p class="hint">{words.manualLoads(what, loads)}</p>;
   }
   const timeS = state?.time_s ?? 0;
@@ -71,7 +60,7 @@ function ManualLoads({ of }: { of: Step }) {
 
 /** Until the run of a step has ended and is assessed. */
 function Running({ of }: { of: Step }) {
-  const now = activeRun.value;
+  const now = stepRun.value.active;
   if (now === null || now.step !== of.name) return null;
   const state = session.value;
   return (
@@ -90,10 +79,11 @@ export function Trial({ of, exercise, onDone }: TaskProps) {
   const missing = exercise.parts.find(
     (one) => one.kind === "predict" && one.judged_by === of.name && one.answer === null,
   );
-  const isRunning = activeRun.value !== null;
+  const { active, assessment } = stepRun.value;
+  const isRunning = active !== null;
   useEffect(() => {
-    if (lastAssessment.value?.step === of.name) onDone();
-  }, [lastAssessment.value]);
+    if (assessment?.step === of.name) onDone();
+  }, [assessment]);
   const isOff =
     missing !== undefined ||
     isRunning ||
@@ -108,7 +98,7 @@ export function Trial({ of, exercise, onDone }: TaskProps) {
   const predictions = exercise.parts.filter(
     (one) => one.kind === "predict" && one.judged_by === of.name,
   );
-  const runShown = lastAssessment.value?.step === of.name ? lastAssessment.value.run : of.run_id;
+  const runShown = assessment?.step === of.name ? assessment.run : of.run_id;
   return (
     <>
       {criteria.length > 0 && (

@@ -15,7 +15,7 @@ import { text } from "../../core/text/en";
 import { isSwitchHeld } from "../../hardware/hold";
 import { PrivateSessionButton } from "../../lab/lease/privatesession";
 import { isOfSession, isPossibleOn, readinessOf } from "./benchstep";
-import { interruption } from "./lesson";
+import { stepRun } from "./steprun";
 
 const words = text.lesson;
 
@@ -50,7 +50,7 @@ function Turn() {
 
 /** The last run of the step was interrupted: by which user, when, and that it does not count. */
 export function CutOff({ of }: { of: Step }) {
-  const last = interruption.value;
+  const last = stepRun.value.interruption;
   if (last?.step !== of.name) return null;
   return (
     <p class="note is-bad" role="alert">

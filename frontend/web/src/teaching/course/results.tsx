@@ -3,7 +3,7 @@ import { showSpan } from "../../core/plots/span";
 import { samples, session } from "../../core/state/session";
 import { text } from "../../core/text/en";
 import { goTo } from "../../runs/list/place";
-import { shownRun } from "./lesson";
+import { stepRun } from "./steprun";
 
 const words = text.lesson;
 const MIN_GAP_S = 0.5;
@@ -16,7 +16,7 @@ const TONES = { right: "is-good", partly: "is-warn", wrong: "is-bad" } as const;
 /** A link to the moment in the plots if they still have that run; otherwise in its replay. */
 function showInPlots(run: string, timeS: number): void {
   const { ring } = samples;
-  const shown = shownRun.peek();
+  const shown = stepRun.peek().shown;
   const isShown = shown?.run === run && shown.runNumber === session.peek()?.run_number;
   if (isShown && ring.oldestTime <= timeS && timeS <= ring.newestTime) {
     showSpan({ from: timeS - MIN_GAP_S, to: timeS + MIN_GAP_S });

@@ -51,6 +51,7 @@ const OLDER = state({ tick: -1 });
 const recording = { state: "recording", run_id: "run-1", name: "mechanism/lever" };
 
 let lesson: typeof import("../../../src/teaching/course/lesson");
+let runs: typeof import("../../../src/teaching/course/steprun");
 let place: typeof import("../../../src/runs/list/place").place;
 let session: typeof import("../../../src/core/state/session").session;
 let RefusedError: typeof import("../../../src/core/api/errors").RefusedError;
@@ -79,6 +80,7 @@ beforeAll(async () => {
     ...only("readRun"),
   }));
   lesson = await import("../../../src/teaching/course/lesson");
+  runs = await import("../../../src/teaching/course/steprun");
   ({ place } = await import("../../../src/runs/list/place"));
   ({ session } = await import("../../../src/core/state/session"));
   ({ RefusedError } = await import("../../../src/core/api/errors"));
@@ -90,9 +92,7 @@ beforeEach(() => {
   place.value = { kind: "learn", exercise: "mechanism", step: "" };
   session.value = state();
   lesson.exercise.value = course();
-  lesson.activeRun.value = null;
-  lesson.lastAssessment.value = null;
-  lesson.shownRun.value = null;
+  runs.stepRun.value = runs.NO_RUN;
   lesson.problem.value = "";
 });
 
@@ -137,82 +137,82 @@ describe("the run of a step", () => {
 
   it("is interrupted without an assessment if control is lost, and can be repeated", async () => {
     record();
-    await lesson.run(step("lever"));
+    await runs.run(step("lever"));
     const other = { holder: "Bob", mine: false, watching: 1 };
     session.value = state({ recording, time_s: 4.2, control: other });
-    await lesson.follow();
-    expect(lesson.interruption.value).toEqual({ step: "lever", why: "control", timeS: 4.2 });
-    expect(lesson.activeRun.value).toBeNull();
+    await runs.follow();
+    expect(runs.stepRun.value.interruption).toEqual({ step: "lever", why: "control", timeS: 4.2 });
+    expect(runs.stepRun.value.active).toBeNull();
     expect(calls.stopRecording).not.toHaveBeenCalled();
     expect(calls.checkRun).not.toHaveBeenCalled();
-    lesson.resume(step("lever"));
-    expect(lesson.activeRun.value, "another's run of the same step").toBeNull();
+    runs.resume(step("lever"));
+    expect(runs.stepRun.value.active, "another's run of the same step").toBeNull();
     session.value = state();
     record();
-    await lesson.run(step("lever"));
-    expect(lesson.interruption.value).toBeNull();
-    expect(lesson.activeRun.value?.step).toBe("lever");
+    await runs.run(step("lever"));
+    expect(runs.stepRun.value.interruption).toBeNull();
+    expect(runs.stepRun.value.active?.step).toBe("lever");
   });
 
   it("does not count if its start is rejected, and its recording ends", async () => {
     record();
     calls.start.mockRejectedValue(new RefusedError(409, "The bench is off."));
-    await lesson.run(step("lever"));
-    expect(lesson.activeRun.value).toBeNull();
+    await runs.run(step("lever"));
+    expect(runs.stepRun.value.active).toBeNull();
     expect(calls.stopRecording).toHaveBeenCalledOnce();
   });
 
   it("is set up, recorded under the name of the step and started if there are no free settings", async () => {
     record();
-    await lesson.setUp(step("lever"));
+    await runs.setUp(step("lever"));
     expect(calls.setUpStep).toHaveBeenCalledWith("mechanism", "lever");
     expect(calls.recordStep).toHaveBeenCalledWith("mechanism/lever");
     expect(calls.start).toHaveBeenCalledOnce();
-    expect(lesson.activeRun.value).toMatchObject({ step: "lever", run: "run-1", endS: 6 });
-    expect(lesson.isRunOfLesson("run-1")).toBe(true);
-    expect(lesson.isRunOfLesson("run-2")).toBe(false);
+    expect(runs.stepRun.value.active).toMatchObject({ step: "lever", run: "run-1", endS: 6 });
+    expect(runs.isRunOfLesson("run-1")).toBe(true);
+    expect(runs.isRunOfLesson("run-2")).toBe(false);
   });
 
   it("waits for the choice of a free setting", async () => {
-    await lesson.setUp(step("lever", { free: ["law"] }));
+    await runs.setUp(step("lever", { free: ["law"] }));
     expect(calls.setUpStep).toHaveBeenCalledOnce();
     expect(calls.recordStep).not.toHaveBeenCalled();
   });
 
   it("does not start if its recording is rejected", async () => {
     calls.recordStep.mockRejectedValue(new RefusedError(409, "The disk is full."));
-    await lesson.run(step("lever"));
+    await runs.run(step("lever"));
     expect(calls.start).not.toHaveBeenCalled();
-    expect(lesson.activeRun.value).toBeNull();
+    expect(runs.stepRun.value.active).toBeNull();
   });
 
   it("runs to the end of the step, and is then stopped and assessed once", async () => {
     record();
-    await lesson.run(step("lever"));
+    await runs.run(step("lever"));
     session.value = state({ time_s: 5.9, recording });
-    await lesson.follow();
+    await runs.follow();
     expect(calls.stopRecording).not.toHaveBeenCalled();
 
     calls.readRun.mockResolvedValue({ state: "complete" });
     calls.checkRun.mockResolvedValue([result("lever", "four times as stiff")]);
     session.value = state({ time_s: 6, recording });
-    await Promise.all([lesson.follow(), lesson.follow()]);
+    await Promise.all([runs.follow(), runs.follow()]);
     expect(calls.stopRecording).toHaveBeenCalledOnce();
     expect(calls.pause).toHaveBeenCalledTimes(2);
     expect(calls.checkRun).toHaveBeenCalledExactlyOnceWith("mechanism", "lever", "run-1");
-    expect(lesson.lastAssessment.value?.run).toBe("run-1");
-    expect(lesson.activeRun.value).toBeNull();
+    expect(runs.stepRun.value.assessment?.run).toBe("run-1");
+    expect(runs.stepRun.value.active).toBeNull();
   });
 
   it("is assessed up to its end if it ends in a fault or another user stops it", async () => {
     calls.readRun.mockResolvedValue({ state: "complete" });
     for (const ended of [{ status: "fault", recording }, { recording: null }]) {
       session.value = state({ recording });
-      lesson.resume(step("lever"));
-      expect(lesson.activeRun.value?.run).toBe("run-1");
+      runs.resume(step("lever"));
+      expect(runs.stepRun.value.active?.run).toBe("run-1");
       calls.checkRun.mockClear();
       session.value = state({ time_s: 2, ...ended });
-      await lesson.follow();
+      await runs.follow();
       expect(calls.checkRun).toHaveBeenCalledOnce();
     }
     expect(calls.stopRecording).toHaveBeenCalledOnce();
@@ -220,19 +220,19 @@ describe("the run of a step", () => {
 
   it("is followed again after a reload, and only by its own step", () => {
     session.value = state({ recording });
-    lesson.resume(step("bend"));
-    expect(lesson.activeRun.value).toBeNull();
-    lesson.resume(step("lever"));
-    expect(lesson.activeRun.value).toMatchObject({ exercise: "mechanism", step: "lever" });
+    runs.resume(step("bend"));
+    expect(runs.stepRun.value.active).toBeNull();
+    runs.resume(step("lever"));
+    expect(runs.stepRun.value.active).toMatchObject({ exercise: "mechanism", step: "lever" });
   });
 
   it("continues after a state from before its recording that comes late", async () => {
     vi.useFakeTimers();
     record();
-    await lesson.run(step("lever"));
+    await runs.run(step("lever"));
     calls.readRun.mockResolvedValue({ state: "recording" });
     session.value = state();
-    const checked = lesson.follow();
+    const checked = runs.follow();
     session.value = state({ time_s: 2, recording });
     await vi.advanceTimersByTimeAsync(20_000);
     await checked;
@@ -240,7 +240,7 @@ describe("the run of a step", () => {
     expect(calls.checkRun).not.toHaveBeenCalled();
     calls.readRun.mockResolvedValue({ state: "complete" });
     session.value = state({ time_s: 6, recording });
-    await lesson.follow();
+    await runs.follow();
     expect(calls.checkRun).toHaveBeenCalledOnce();
     expect(calls.stopRecording).toHaveBeenCalledOnce();
   });
@@ -248,13 +248,13 @@ describe("the run of a step", () => {
   it("is assessed only after its record is complete", async () => {
     vi.useFakeTimers();
     session.value = state({ time_s: 6, recording });
-    lesson.resume(step("lever"));
+    runs.resume(step("lever"));
     calls.readRun
       .mockRejectedValueOnce(new TypeError("no answer"))
       .mockResolvedValueOnce({ state: "recording" })
       .mockResolvedValue({ state: "complete" });
     calls.checkRun.mockResolvedValue([]);
-    const ended = lesson.follow();
+    const ended = runs.follow();
     await vi.advanceTimersByTimeAsync(299);
     expect(calls.checkRun).not.toHaveBeenCalled();
     await vi.advanceTimersByTimeAsync(400);
@@ -269,11 +269,12 @@ describe("the displayed result of a step", () => {
   it("is the newest assessment of its run, or else the stored one", () => {
     const lever = step("lever", { results: [result("lever", "kept")] });
     const bend = step("bend", { results: [result("bend", "kept")] });
-    expect(lesson.resultsOf(lever)).toEqual(lever.results);
+    expect(runs.resultsOf(lever)).toEqual(lever.results);
     const newest = [result("lever", "new"), result("predict-lever", "new")];
-    lesson.lastAssessment.value = { step: "lever", run: "run-2", results: newest };
-    expect(lesson.resultsOf(lever)).toEqual([newest[0]]);
-    expect(lesson.resultsOf(bend)).toEqual(bend.results);
+    const assessment = { step: "lever", run: "run-2", results: newest };
+    runs.stepRun.value = { ...runs.NO_RUN, assessment };
+    expect(runs.resultsOf(lever)).toEqual([newest[0]]);
+    expect(runs.resultsOf(bend)).toEqual(bend.results);
   });
 
   it("reports why an answer was rejected, until the next answer", async () => {
