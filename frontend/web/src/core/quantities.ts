@@ -62,10 +62,12 @@ export function quantityOf(path: string): Quantity | null {
     return plain(realism.cell(`${symbol} ${meaning}`, realism[section]), unit);
   }
   if (!isKey(name, QUANTITIES)) return null;
-  const found = QUANTITIES[name];
+  const quantity = QUANTITIES[name];
   const channel = index !== undefined ? text.channels[Number(index)] : undefined;
   const isByChannel = name === "bandwidth_rad_per_s" || name === "torque_nm";
-  return isByChannel && channel ? { ...found, label: `${found.label}, ${channel}` } : found;
+  return isByChannel && channel
+    ? { ...quantity, label: `${quantity.label}, ${channel}` }
+    : quantity;
 }
 
 const DECIMALS = 1;

@@ -20,18 +20,21 @@ function questionOf(load: Load | null): string | null {
 /** Next to the load button of a bench: which motor overheats, after which time, and why. */
 export function EnduranceNote({ load }: { load: Load | null }) {
   const question = questionOf(load);
-  const [found, find] = useState<{ question: string; answer: Endurance | null } | null>(null);
+  const [prediction, setPrediction] = useState<{
+    question: string;
+    answer: Endurance | null;
+  } | null>(null);
   useEffect(() => {
     if (question === null || load === null) return;
     const ask = () =>
       predictHeat(load).then(
-        (answer) => find({ question, answer }),
-        () => find(null),
+        (answer) => setPrediction({ question, answer }),
+        () => setPrediction(null),
       );
     const timer = setTimeout(() => void ask(), PAUSE_MS);
     return () => clearTimeout(timer);
   }, [question]);
-  const answer = found !== null && found.question === question ? found.answer : null;
+  const answer = prediction !== null && prediction.question === question ? prediction.answer : null;
   return (
     <div class="small strong endurance" role="status" hidden={answer === null}>
       {answer !== null && (

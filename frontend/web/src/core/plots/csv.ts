@@ -34,7 +34,10 @@ export function columnsOf(
   const always = { lane: 1, from: Number.NEGATIVE_INFINITY, to: Number.POSITIVE_INFINITY };
   const common = { name: text.plots.common, pieces: [always] };
   return channels.flatMap((channel) =>
-    (CHANNELS[channel].isReference ? [common] : controllers).map((one) => ({ ...one, channel })),
+    (CHANNELS[channel].isReference ? [common] : controllers).map((controller) => ({
+      ...controller,
+      channel,
+    })),
   );
 }
 
@@ -52,7 +55,7 @@ const written = (value: number): string =>
 
 function valueAt(ring: SampleRing, { channel, pieces }: CsvColumn, index: number): number {
   const timeS = ring.timeAt(index);
-  const piece = pieces.find((one) => isWithin(one, timeS));
+  const piece = pieces.find((candidate) => isWithin(candidate, timeS));
   return piece === undefined ? Number.NaN : ring.valueAt(channel, index, piece.lane);
 }
 

@@ -70,7 +70,7 @@ export function nameMarks(marks: readonly PlacedMark[], width: number): Side[] {
   const sides: Side[] = marks.map(() => null);
   const order = marks
     .map((mark, index) => ({ ...mark, index }))
-    .sort((one, other) => one.rank - other.rank || other.index - one.index);
+    .sort((first, second) => first.rank - second.rank || second.index - first.index);
   for (const { x, room, index } of order) {
     const right: [number, number] = [x + OFFSET_PX, x + OFFSET_PX + room];
     const left: [number, number] = [x - OFFSET_PX - room, x - OFFSET_PX];

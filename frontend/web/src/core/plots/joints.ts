@@ -21,10 +21,10 @@ export function composeOfJoint(
   if (joint === null) return composeContent(channels, cast);
   const lanes = lanesOfJoint(cast.length, joint);
   const own = lanes.map((lane) =>
-    (cast[lane - 1] ?? []).map((one) => ({ ...one, name: nameWithoutJoint(one.name) })),
+    (cast[lane - 1] ?? []).map((segment) => ({ ...segment, name: nameWithoutJoint(segment.name) })),
   );
   const { groups, common } = composeContent(channels, own);
-  const move = (one: Trace): Trace => ({ ...one, lane: lanes[one.lane - 1] ?? one.lane });
+  const move = (trace: Trace): Trace => ({ ...trace, lane: lanes[trace.lane - 1] ?? trace.lane });
   return {
     groups: groups.map((group) => ({ ...group, traces: group.traces.map(move) })),
     common: common.map(move),

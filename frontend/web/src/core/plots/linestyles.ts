@@ -52,7 +52,7 @@ export function shareLineStyles(own: readonly (number | null)[]): LineStyle[] {
   const shared = new Map<number, number>();
   const isTaken = (lineStyle: number) => [...shared.values()].includes(lineStyle);
   const isColourTaken = (lineStyle: number) =>
-    [...shared.values()].some((one) => (one - lineStyle) % LANE_COLOURS.length === 0);
+    [...shared.values()].some((usedStyle) => (usedStyle - lineStyle) % LANE_COLOURS.length === 0);
   const firstLook = () => {
     let lineStyle = 0;
     while (isTaken(lineStyle)) lineStyle++;
@@ -60,17 +60,19 @@ export function shareLineStyles(own: readonly (number | null)[]): LineStyle[] {
   };
   const preferredColours = own
     .map((lineStyle, index) => ({ lineStyle: lineStyle ?? Number.MAX_SAFE_INTEGER, index }))
-    .sort((one, other) => one.lineStyle - other.lineStyle);
+    .sort((first, second) => first.lineStyle - second.lineStyle);
   const areOfOneLaw = new Set(own).size === 1;
   const listLooks = (lineStyle: number) =>
     LANE_DASHES.map((_, turn) => lineStyle + turn * LANE_COLOURS.length);
   for (const { lineStyle, index } of preferredColours) {
     if (own[index] === null) continue;
     const isAgain = preferredColours.some(
-      (one) => one.lineStyle === lineStyle && shared.has(one.index),
+      (preferred) => preferred.lineStyle === lineStyle && shared.has(preferred.index),
     );
     const look =
-      isAgain && !areOfOneLaw ? listLooks(lineStyle).find((one) => !isTaken(one)) : undefined;
+      isAgain && !areOfOneLaw
+        ? listLooks(lineStyle).find((candidate) => !isTaken(candidate))
+        : undefined;
     if (look !== undefined) shared.set(index, look);
     else if (!isColourTaken(lineStyle)) shared.set(index, lineStyle);
   }

@@ -30,9 +30,10 @@ function curvesOf({ channels }: PlotSetup): Trace[] {
   const everything = new Set(content.groups.map((group) => group.key));
   return tracesOf(content, everything, lanes.length)
     .filter(({ factor }) => factor > 0)
-    .map((one) => {
-      const name = lanes.length > 1 && isTruth(one) ? lanes[one.lane - 1]?.at(-1)?.name : undefined;
-      return name === undefined ? one : { ...one, label: text.plots.ofLane(name, one.label) };
+    .map((curve) => {
+      const name =
+        lanes.length > 1 && isTruth(curve) ? lanes[curve.lane - 1]?.at(-1)?.name : undefined;
+      return name === undefined ? curve : { ...curve, label: text.plots.ofLane(name, curve.label) };
     });
 }
 

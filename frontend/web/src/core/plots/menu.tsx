@@ -16,7 +16,7 @@ interface PlotMenuProps {
 /** The channels that a plot may contain: those with its unit. */
 function Curves({ setup }: { setup: PlotSetup }) {
   const unit = unitOf(setup.channels);
-  const channels = CHANNELS_BY_UNIT.find((one) => one.unit === unit)?.channels ?? [];
+  const channels = CHANNELS_BY_UNIT.find((group) => group.unit === unit)?.channels ?? [];
   return (
     <fieldset>
       <legend>{text.picker.curves}</legend>

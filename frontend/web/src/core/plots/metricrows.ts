@@ -71,28 +71,28 @@ const POSITION: Output = {
   unit: units.degrees,
   integralUnit: units.degreeSeconds,
   convert: toDegrees,
-  rms: (one) => one.rms_position_error_rad,
-  peak: (one) => one.peak_position_error_rad,
-  steady: (one) => one.steady_state_position_error_rad,
-  integral: (one) => one.integral_position_error_rad_s,
-  recovery: (one) => one.recovery_time_s,
-  rise: (one) => one.rise_time_s,
-  overshoot: (one) => one.overshoot_share,
-  settling: (one) => one.settling_time_s,
+  rms: (metrics) => metrics.rms_position_error_rad,
+  peak: (metrics) => metrics.peak_position_error_rad,
+  steady: (metrics) => metrics.steady_state_position_error_rad,
+  integral: (metrics) => metrics.integral_position_error_rad_s,
+  recovery: (metrics) => metrics.recovery_time_s,
+  rise: (metrics) => metrics.rise_time_s,
+  overshoot: (metrics) => metrics.overshoot_share,
+  settling: (metrics) => metrics.settling_time_s,
 };
 
 const STIFFNESS: Output = {
   unit: units.stiffness,
   integralUnit: units.stiffnessSeconds,
   convert: (value) => value,
-  rms: (one) => one.rms_stiffness_error_nm_per_rad,
-  peak: (one) => one.peak_stiffness_error_nm_per_rad,
-  steady: (one) => one.steady_state_stiffness_error_nm_per_rad,
-  integral: (one) => one.integral_stiffness_error_nms_per_rad,
-  recovery: (one) => one.stiffness_recovery_time_s,
-  rise: (one) => one.stiffness_rise_time_s,
-  overshoot: (one) => one.stiffness_overshoot_share,
-  settling: (one) => one.stiffness_settling_time_s,
+  rms: (metrics) => metrics.rms_stiffness_error_nm_per_rad,
+  peak: (metrics) => metrics.peak_stiffness_error_nm_per_rad,
+  steady: (metrics) => metrics.steady_state_stiffness_error_nm_per_rad,
+  integral: (metrics) => metrics.integral_stiffness_error_nms_per_rad,
+  recovery: (metrics) => metrics.stiffness_recovery_time_s,
+  rise: (metrics) => metrics.stiffness_rise_time_s,
+  overshoot: (metrics) => metrics.stiffness_overshoot_share,
+  settling: (metrics) => metrics.stiffness_settling_time_s,
 };
 
 function showRecovery(of: Output, metrics: Metrics, isDisturbed: boolean): Shown {
@@ -117,20 +117,20 @@ function listOutput(of: Output, lanes: readonly MeasuredLane[]): MetricRow[] {
     {
       ...words.rise,
       unit: units.seconds,
-      read: (one) => orMissing(of.rise(one), reasons.unreached),
+      read: (metrics) => orMissing(of.rise(metrics), reasons.unreached),
     },
     {
       ...words.overshoot,
       unit: units.percent,
-      read: (one) => {
-        const share = of.overshoot(one);
+      read: (metrics) => {
+        const share = of.overshoot(metrics);
         return share === null ? missing(reasons.unreached) : number(100 * share);
       },
     },
     {
       ...words.settling,
       unit: units.seconds,
-      read: (one) => orMissing(of.settling(one), reasons.unsettled),
+      read: (metrics) => orMissing(of.settling(metrics), reasons.unsettled),
     },
   ];
   return [
@@ -141,21 +141,25 @@ function listOutput(of: Output, lanes: readonly MeasuredLane[]): MetricRow[] {
           {
             ...words.peakShare,
             unit: units.percent,
-            read: (one: Metrics) => number(100 * one.peak_stiffness_error_share),
+            read: (metrics: Metrics) => number(100 * metrics.peak_stiffness_error_share),
           },
         ]
       : []),
     {
       ...words.steady,
       unit: of.unit,
-      read: (one) => {
-        const steady = of.steady(one);
-        const why = one.duration_s < 1 ? reasons.tooShort : reasons.loadEnded;
+      read: (metrics) => {
+        const steady = of.steady(metrics);
+        const why = metrics.duration_s < 1 ? reasons.tooShort : reasons.loadEnded;
         return steady === null ? missing(why) : number(of.convert(steady));
       },
     },
     { ...words.iae, unit: of.integralUnit, read: inUnit(of.integral) },
-    { ...words.recovery, unit: units.seconds, read: (...one) => showRecovery(of, ...one) },
+    {
+      ...words.recovery,
+      unit: units.seconds,
+      read: (metrics, isDisturbed) => showRecovery(of, metrics, isDisturbed),
+    },
     ...(hasStep ? steps : []),
   ];
 }
@@ -164,24 +168,24 @@ const EFFORT: readonly MetricRow[] = [
   {
     ...words.rmsTorque,
     unit: units.torque,
-    read: (one) => both(one.rms_torque1_nm, one.rms_torque2_nm),
+    read: (metrics) => both(metrics.rms_torque1_nm, metrics.rms_torque2_nm),
   },
   {
     ...words.peakTorque,
     unit: units.torque,
-    read: (one) => both(one.peak_torque1_nm, one.peak_torque2_nm),
+    read: (metrics) => both(metrics.peak_torque1_nm, metrics.peak_torque2_nm),
   },
-  { ...words.work, unit: units.work, read: (one) => number(one.work_j) },
-  { ...words.effort, unit: units.effort, read: (one) => number(one.effort_n2m2_s) },
+  { ...words.work, unit: units.work, read: (metrics) => number(metrics.work_j) },
+  { ...words.effort, unit: units.effort, read: (metrics) => number(metrics.effort_n2m2_s) },
   {
     ...words.variation,
     unit: units.variation,
-    read: (one) => both(one.torque1_variation_nm_per_s, one.torque2_variation_nm_per_s),
+    read: (metrics) => both(metrics.torque1_variation_nm_per_s, metrics.torque2_variation_nm_per_s),
   },
   {
     ...words.noise,
     unit: units.torque,
-    read: (one) => both(one.torque1_noise_nm, one.torque2_noise_nm),
+    read: (metrics) => both(metrics.torque1_noise_nm, metrics.torque2_noise_nm),
   },
 ];
 

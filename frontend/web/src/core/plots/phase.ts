@@ -126,7 +126,7 @@ export class PhaseChart {
       for (const [which, index] of (cursorSamples.peek() ?? [newest]).entries()) {
         if (!isWithin(trace, ring.timeAt(index))) continue;
         const [x, y] = this.channels.map(
-          (one) => ring.valueAt(one, index, trace.lane) * CHANNELS[one].factor,
+          (channel) => ring.valueAt(channel, index, trace.lane) * CHANNELS[channel].factor,
         ) as [number, number];
         const path = new Path2D();
         const sign = which === 0 ? "circle" : "square";

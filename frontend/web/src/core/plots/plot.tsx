@@ -69,11 +69,11 @@ function keepReadings(traces: readonly Trace[], readings: ReadonlyMap<string, HT
     const index = sampleRead();
     const { from } = shownSpan();
     for (const [key, element] of readings) {
-      const values = traces.filter((one) => ownerOf(one) === key);
+      const values = traces.filter((trace) => ownerOf(trace) === key);
       const entry = element.parentElement as HTMLElement;
       entry.hidden = values.every(({ to }) => to <= from);
       const next = formatNumber(
-        values.map((one) => readPiece(ring, one, index)).find(Number.isFinite),
+        values.map((trace) => readPiece(ring, trace, index)).find(Number.isFinite),
         3,
         3,
       );
@@ -192,7 +192,7 @@ function noteOf({ preset, channels }: PlotSetup, hasTruth: boolean): string | un
   if (preset === "phase" && across !== undefined) {
     return text.plots.phaseNote(text.channelNames[across], CHANNELS[across].unit);
   }
-  const isUnused = lawsWithout.value && channels.some((one) => one.startsWith("estimate_"));
+  const isUnused = lawsWithout.value && channels.some((channel) => channel.startsWith("estimate_"));
   const unused = isUnused ? [text.plots.unusedEstimate(lawsWithout.value)] : [];
   return (hasTruth ? [...unused, text.plots.disturbanceNote] : unused).join(" · ") || undefined;
 }

@@ -43,11 +43,11 @@ function keepShare(list: HTMLElement): () => void {
   const heads = [...list.querySelectorAll(".plots-stage > .plot > .plot-head")];
   const measure = () => {
     const least = Number.parseFloat(getComputedStyle(list).getPropertyValue("--least-plot"));
-    const head = Math.max(0, ...heads.map((one) => one.getBoundingClientRect().height));
+    const head = Math.max(0, ...heads.map((element) => element.getBoundingClientRect().height));
     list.style.setProperty("--plot-share", `${shareOfList(list.clientHeight, least, head)}px`);
   };
   const resizing = new ResizeObserver(measure);
-  for (const one of [list, ...heads]) resizing.observe(one);
+  for (const element of [list, ...heads]) resizing.observe(element);
   return () => resizing.disconnect();
 }
 

@@ -128,8 +128,8 @@ export function toggleChannel(key: string, channel: ChannelName): void {
 
 /** Set the two channels of the phase plane: horizontal and vertical. */
 export function choosePhase(across: ChannelName, up: ChannelName): void {
-  const setup = phaseOf([across, up]);
-  arrange(setups.peek().map((one) => (one.preset === "phase" ? setup : one)));
+  const phase = phaseOf([across, up]);
+  arrange(setups.peek().map((setup) => (setup.preset === "phase" ? phase : setup)));
 }
 
 export function resetPlots(): void {

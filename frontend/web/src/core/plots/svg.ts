@@ -131,10 +131,10 @@ function marks({ events, bounds, x, y, colours }: Drawing, at: Places): string {
     );
   const limits = bounds.flatMap(({ value, colour }) =>
     [-value, value]
-      .filter((one) => one >= y.from && one <= y.to)
+      .filter((limit) => limit >= y.from && limit <= y.to)
       .map(
-        (one) =>
-          `<path d="M${BOX.left} ${at.y(one)}h${INNER.width}" stroke="${colours[colour]}" opacity="0.6"/>`,
+        (limit) =>
+          `<path d="M${BOX.left} ${at.y(limit)}h${INNER.width}" stroke="${colours[colour]}" opacity="0.6"/>`,
       ),
   );
   return [...lines, ...limits].join("\n");

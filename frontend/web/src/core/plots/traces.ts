@@ -41,10 +41,10 @@ interface Placed extends Segment {
 
 /** The current controllers first, in the order of the lanes, then the previous ones. */
 function listSegments(cast: LaneSegments): Placed[] {
-  const lanes = cast.map((lane, index) => lane.map((one) => ({ ...one, lane: index + 1 })));
+  const lanes = cast.map((lane, index) => lane.map((segment) => ({ ...segment, lane: index + 1 })));
   const present = lanes.flatMap((lane) => lane.slice(-1));
   const past = lanes.flatMap((lane) => lane.slice(0, -1));
-  return [...present, ...past.sort((one, other) => one.number - other.number)];
+  return [...present, ...past.sort((first, second) => first.number - second.number)];
 }
 
 /** With several lanes, an estimate is drawn only while the lane's law uses it. */
@@ -62,7 +62,7 @@ function pieces(
 ): Trace[] {
   const owners = new Set<string>();
   const chosen = cast[0]?.at(-1)?.number;
-  const drawn = listSegments(cast).filter((one) => isDrawn(channel, cast, one));
+  const drawn = listSegments(cast).filter((segment) => isDrawn(channel, cast, segment));
   return drawn.map((segment) => {
     const { lane, from, to } = segment;
     const { lineStyle, label: name } = look(segment, segment.number === chosen);
@@ -112,8 +112,8 @@ function sort(channels: readonly ChannelName[]): Sorted {
   return { references, leaders };
 }
 
-const withMirror = (one: Trace): Trace[] =>
-  CHANNELS[one.channel as ChannelName].limitOf === undefined ? [one] : [one, mirror(one)];
+const withMirror = (curve: Trace): Trace[] =>
+  CHANNELS[curve.channel as ChannelName].limitOf === undefined ? [curve] : [curve, mirror(curve)];
 
 /** A true value or a limit, drawn with the curve it belongs to. */
 function compose(companion: ChannelName, own: readonly Trace[], cast: LaneSegments): Trace[] {
@@ -133,9 +133,9 @@ function compose(companion: ChannelName, own: readonly Trace[], cast: LaneSegmen
   const limits = pieces(
     companion,
     cast,
-    (one) => keyOf(companion, one),
-    (one, isChosen) => ({
-      lineStyle: { ...lineStyleOfLane(one.lineStyle, isChosen), dash: DASHED, width: 1.25 },
+    (segment) => keyOf(companion, segment),
+    (segment, isChosen) => ({
+      lineStyle: { ...lineStyleOfLane(segment.lineStyle, isChosen), dash: DASHED, width: 1.25 },
       label: label(companion),
     }),
   );
@@ -159,12 +159,12 @@ export function composeContent(channels: readonly ChannelName[], cast: LaneSegme
     const own = pieces(
       channel,
       cast,
-      (one) => (isByChannel ? channel : keyOf(channel, one)),
-      (one, isChosen) => ({
-        lineStyle: isByChannel ? ofChannel : lineStyleOfLane(one.lineStyle, isChosen),
-        label: isByChannel || isOneName ? label(channel) : one.name,
+      (segment) => (isByChannel ? channel : keyOf(channel, segment)),
+      (segment, isChosen) => ({
+        lineStyle: isByChannel ? ofChannel : lineStyleOfLane(segment.lineStyle, isChosen),
+        label: isByChannel || isOneName ? label(channel) : segment.name,
       }),
-    ).map((one): Trace => ({ ...one, sign }));
+    ).map((curve): Trace => ({ ...curve, sign }));
     const added = companions.flatMap((name) => compose(name, own, cast).flatMap(withMirror));
     return { key: channel, label: label(channel), traces: [...own, ...added] };
   });
@@ -182,7 +182,7 @@ export function tracesOf(
   const isMixed = laneCount > 1 && shown.length > 1;
   const named = shown.flatMap(({ label, traces }) =>
     isMixed
-      ? traces.map((one) => ({ ...one, label: text.plots.ofLane(one.label, label) }))
+      ? traces.map((curve) => ({ ...curve, label: text.plots.ofLane(curve.label, label) }))
       : traces,
   );
   return [...named, ...common];
@@ -192,7 +192,7 @@ export function tracesOf(
 export const hasUnnamedTruth = (traces: readonly Trace[]): boolean =>
   traces.some(({ channel, follows }) => {
     const { truthOf } = CHANNELS[channel as ChannelName];
-    return traces.some((one) => one.key === follows && one.channel === truthOf);
+    return traces.some((curve) => curve.key === follows && curve.channel === truthOf);
   });
 
 /**
@@ -200,7 +200,7 @@ export const hasUnnamedTruth = (traces: readonly Trace[]): boolean =>
  * differ.
  */
 export function hasOneValue(traces: readonly Trace[], key: string): boolean {
-  const leader = traces.find((one) => one.key === key);
+  const leader = traces.find((curve) => curve.key === key);
   return !traces.some(
     ({ follows, continues, channel, lane }) =>
       follows === key && !continues && channel === leader?.channel && lane !== leader.lane,

@@ -12,7 +12,7 @@ export const nameOfActuator = ({ mechanism }: ActuatorParameters): string =>
   typeof mechanism === "string" ? mechanism : SVSA;
 
 export const describeActuator = (name: string): ActuatorRow | undefined =>
-  actuators.value?.find((one) => one.name === name);
+  actuators.value?.find((actuator) => actuator.name === name);
 
 /** All parameters, as a request needs them. */
 export function patchOf({ mechanism: _, ...values }: ActuatorParameters): ActuatorParameters {

@@ -1,7 +1,7 @@
 /** Which values of two objects differ, compared as JSON. */
 
-export const isEqual = (one: unknown, other: unknown): boolean =>
-  JSON.stringify(one) === JSON.stringify(other);
+export const isEqual = (first: unknown, second: unknown): boolean =>
+  JSON.stringify(first) === JSON.stringify(second);
 
 /** The fields of `now` that differ from those of `before`, of some `keys` in their order. */
 export function findChanges<T extends object>(

@@ -58,13 +58,13 @@ const listNumbers = ({ value, parameters }: EffectRow): ParameterRow[] =>
 /** The quantity of a path such as `noise.motor_std_rad`; null if no effect has it. */
 export function effectQuantityOf(path: string): Quantity | null {
   const [name, effect] = path.split(".").reverse();
-  const found = kinds.value?.effects
+  const parameter = kinds.value?.effects
     .filter(
       (candidate) => effect === undefined || effect === "effects" || candidate.name === effect,
     )
     .flatMap(listNumbers)
     .find((row) => row.name === name);
-  return found === undefined ? null : quantityOfParameter(found);
+  return parameter === undefined ? null : quantityOfParameter(parameter);
 }
 
 /** Initial values of the fields of a form, by name, in the units on screen. */

@@ -90,8 +90,9 @@ export const groupLaws = (candidates: readonly LawRow[]) =>
   })).filter((group) => group.laws.length > 0);
 
 /** Selection by Enter: the law whose name was typed completely, or the first one found. */
-export const pickLaw = (found: readonly LawRow[], query: string): LawRow | undefined =>
-  found.find(({ title }) => normalize(title) === normalize(query)) ?? groupLaws(found)[0]?.laws[0];
+export const pickLaw = (candidates: readonly LawRow[], query: string): LawRow | undefined =>
+  candidates.find(({ title }) => normalize(title) === normalize(query)) ??
+  groupLaws(candidates)[0]?.laws[0];
 
 /** Read once, when the page opens: laws are installed before the lab starts. */
 export async function openLaws(): Promise<void> {

@@ -80,9 +80,9 @@ export class BatchDecoder {
   #checkMagic(message: ArrayBuffer): void {
     const { magic } = this.#layout;
     const bytes = new Uint8Array(message, this.#field("magic").byte, magic.length);
-    const found = new TextDecoder("latin1").decode(bytes);
-    if (found !== magic) {
-      throw new StreamFormatError(`a batch begins with "${found}": it must be "${magic}"`);
+    const prefix = new TextDecoder("latin1").decode(bytes);
+    if (prefix !== magic) {
+      throw new StreamFormatError(`a batch begins with "${prefix}": it must be "${magic}"`);
     }
   }
 

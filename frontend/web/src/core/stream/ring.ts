@@ -181,7 +181,7 @@ export class SampleRing extends TimeRing {
     const isLate = (timeS: number) =>
       timeS < this.newestTime && this.timeAt(this.lowerBound(timeS)) !== timeS;
     const late = source.timesFrom(0).filter(([timeS]) => isLate(timeS));
-    const times = [...this.timesFrom(0), ...late].sort(([one], [other]) => one - other);
+    const times = [...this.timesFrom(0), ...late].sort(([first], [second]) => first - second);
     const blank = () => new Map(this.#columns.map((name) => [name, this.#blank()]));
     this.#lanes = this.#lanes.map(({ id }) => ({ id, columns: blank() }));
     const places = this.#lanes.map(({ id }) => source.#lanes.findIndex((lane) => lane.id === id));

@@ -88,13 +88,13 @@ export const studiesText = {
     interval: (share: string, low: string, high: string) => `${share} % (${low} to ${high})`,
     estimate: (value: string, low: string | null, high: string | null) =>
       low === null ? `${value} (no interval)` : `${value} (${low} to ${high})`,
-    pair: (one: string, other: string) => `${one} − ${other}`,
+    pair: (first: string, second: string) => `${first} − ${second}`,
     points: (estimate: string) => `${estimate} percentage points`,
     pSuccess: (value: string) => `McNemar's p-value, Holm-corrected: ${value}`,
     pMetric: (value: string) => `Wilcoxon's p-value, Holm-corrected: ${value}`,
     pSmall: "< 0.0001",
-    only: (one: number, other: number) =>
-      `only the first succeeded: ${samples(one)}; only the second: ${other}`,
+    only: (first: number, second: number) =>
+      `only the first succeeded: ${samples(first)}; only the second: ${second}`,
     difference: (metric: string, whole: number) =>
       `${metric}, over ${samples(whole)} on which both finished`,
     sensitivity: "Sensitivity of the success",

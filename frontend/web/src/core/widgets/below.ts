@@ -17,12 +17,13 @@ export function useBelow(
     if (element === null) return;
     const find = () => {
       const end = element.getBoundingClientRect().bottom - cover;
-      const found = [...element.querySelectorAll<HTMLElement>(parts)].filter(
+      const hiddenParts = [...element.querySelectorAll<HTMLElement>(parts)].filter(
         (part) => (headingOf(part)?.getBoundingClientRect().bottom ?? 0) > end,
       );
       const isSame = (before: readonly HTMLElement[]) =>
-        before.length === found.length && before.every((item, at) => item === found[at]);
-      setBelow((before) => (isSame(before) ? before : found));
+        before.length === hiddenParts.length &&
+        before.every((item, at) => item === hiddenParts[at]);
+      setBelow((before) => (isSame(before) ? before : hiddenParts));
     };
     const resizing = new ResizeObserver(find);
     for (const item of [element, ...element.querySelectorAll(parts)]) resizing.observe(item);

@@ -13,11 +13,13 @@ export function Criteria({ grade }: { grade: Grade }) {
       caption={<span class="visually-hidden">{words.criteria}</span>}
       heads={[words.asked, words.points, words.feedback]}
     >
-      {grade.criteria.map((one) => (
-        <tr key={`${one.step} ${one.name}`}>
-          <th scope="row">{one.name}</th>
-          <td class="nowrap">{words.of(formatPoints(one.points), formatPoints(one.max_points))}</td>
-          <td class="as-written">{one.feedback}</td>
+      {grade.criteria.map((criterion) => (
+        <tr key={`${criterion.step} ${criterion.name}`}>
+          <th scope="row">{criterion.name}</th>
+          <td class="nowrap">
+            {words.of(formatPoints(criterion.points), formatPoints(criterion.max_points))}
+          </td>
+          <td class="as-written">{criterion.feedback}</td>
         </tr>
       ))}
     </Table>
@@ -28,9 +30,9 @@ export function Criteria({ grade }: { grade: Grade }) {
 export function VerifiedRuns({ grade }: { grade: Grade }) {
   return (
     <>
-      {(grade.runs ?? []).map((one) => (
-        <p key={one.run_id} class="hint">
-          {words.run(one.run_id)} {one.description}
+      {(grade.runs ?? []).map((run) => (
+        <p key={run.run_id} class="hint">
+          {words.run(run.run_id)} {run.description}
         </p>
       ))}
     </>

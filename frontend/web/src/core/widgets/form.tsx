@@ -102,9 +102,9 @@ export function SelectField<T extends string>(props: SelectFieldProps<T>) {
         disabled={disabled}
         onChange={(event) => onChoose(event.currentTarget.value as T)}
       >
-        {options.map((one) => (
-          <option key={one} value={one}>
-            {name(one)}
+        {options.map((option) => (
+          <option key={option} value={option}>
+            {name(option)}
           </option>
         ))}
       </select>

@@ -73,7 +73,9 @@ export function Boxes({ offered, chosen, onChange }: BoxesProps) {
             checked={chosen.includes(name)}
             onChange={() =>
               onChange(
-                chosen.includes(name) ? chosen.filter((one) => one !== name) : [...chosen, name],
+                chosen.includes(name)
+                  ? chosen.filter((chosenName) => chosenName !== name)
+                  : [...chosen, name],
               )
             }
           />{" "}

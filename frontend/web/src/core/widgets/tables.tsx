@@ -94,8 +94,8 @@ export function sortBy<T>(
   isDown: boolean,
 ): readonly T[] {
   const way = isDown ? -1 : 1;
-  return [...rows].sort((one, other) => {
-    const [a, b] = [read(one), read(other)];
+  return [...rows].sort((first, second) => {
+    const [a, b] = [read(first), read(second)];
     if (a === b) return 0;
     if (a === null) return 1;
     if (b === null) return -1;

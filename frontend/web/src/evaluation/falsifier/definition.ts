@@ -58,15 +58,20 @@ function writeTerm({ kind, bodies, torqueNm, startS, own }: TermForm): Term {
 }
 
 /** The percentage of a perturbation that the form can edit; null for any other. */
-function readOff(one: Adversary["vary"][number]): number | null {
-  const isOff = one.kind === "uniform" && one.relative && OFF_PATHS.some((p) => p === one.path);
-  return isOff && Math.abs(one.low + one.high - 2) < 1e-9 ? 100 * (one.high - 1) : null;
+function readOff(perturbation: Adversary["vary"][number]): number | null {
+  const isOff =
+    perturbation.kind === "uniform" &&
+    perturbation.relative &&
+    OFF_PATHS.some((p) => p === perturbation.path);
+  return isOff && Math.abs(perturbation.low + perturbation.high - 2) < 1e-9
+    ? 100 * (perturbation.high - 1)
+    : null;
 }
 
 export function readForm(from: Adversary): AdversaryForm {
   const shares = from.vary.map(readOff);
   const share = shares[0] ?? 0;
-  const isForm = shares.length === OFF_PATHS.length && shares.every((one) => one === share);
+  const isForm = shares.length === OFF_PATHS.length && shares.every((other) => other === share);
   return {
     title: from.title,
     law: from.law,

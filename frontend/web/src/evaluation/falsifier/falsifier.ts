@@ -119,9 +119,9 @@ export async function follow(id: string): Promise<void> {
   if (id === "") return;
   const pollEnd = await poll(
     () => readSearch(id),
-    (found) => {
-      search.value = found;
-      return !isJobRunning(found);
+    (polledSearch) => {
+      search.value = polledSearch;
+      return !isJobRunning(polledSearch);
     },
   );
   if (pollEnd === "ended") void openLists();

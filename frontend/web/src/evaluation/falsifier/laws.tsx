@@ -13,8 +13,8 @@ import type { DrawnLaw } from "./picture";
 
 const words = text.falsifier;
 
-const metricOf = (one: LawTrace, name: string, factor = 1): string => {
-  const value = one.metrics[name];
+const metricOf = (trace: LawTrace, name: string, factor = 1): string => {
+  const value = trace.metrics[name];
   return formatNumber(value === null || value === undefined ? null : value * factor, 3);
 };
 
@@ -22,12 +22,12 @@ const endOf = ({ fault, fault_s: timeS }: LawTrace): string =>
   fault === null ? words.whole : words.fault(writeFault(fault), formatNumber(timeS, 4, 3));
 
 /** Text for a missing recovery: the run ended, or it did not recover. */
-const recoveryOf = (one: LawTrace): string =>
-  one.fault === null && one.metrics.recovery_time_s === null
+const recoveryOf = (trace: LawTrace): string =>
+  trace.fault === null && trace.metrics.recovery_time_s === null
     ? words.never
-    : metricOf(one, "recovery_time_s");
+    : metricOf(trace, "recovery_time_s");
 
-const peakOf = (one: LawTrace): number => one.metrics.peak_position_error_rad ?? Infinity;
+const peakOf = (trace: LawTrace): number => trace.metrics.peak_position_error_rad ?? Infinity;
 
 /** Order: completed runs by error, then ended ones, the last to end first. */
 export const rankLaws = (traces: readonly LawTrace[]): LawTrace[] =>
@@ -39,14 +39,14 @@ export const rankLaws = (traces: readonly LawTrace[]): LawTrace[] =>
   });
 
 interface RowProps {
-  one: LawTrace;
+  trace: LawTrace;
   /** undefined: it is not drawn. */
   lineStyle: LineStyle | undefined;
   onDraw: (law: Law) => void;
 }
 
-function Row({ one, lineStyle, onDraw }: RowProps) {
-  const title = titleOf(one.law);
+function Row({ trace, lineStyle, onDraw }: RowProps) {
+  const title = titleOf(trace.law);
   return (
     <tr>
       <th scope="row">
@@ -55,17 +55,17 @@ function Row({ one, lineStyle, onDraw }: RowProps) {
           class="nowrap falsifier-law"
           aria-pressed={lineStyle !== undefined}
           title={words.draw(title)}
-          onClick={() => onDraw(one.law)}
+          onClick={() => onDraw(trace.law)}
         >
           <i class="dot" aria-hidden="true" style={dotOf(lineStyle)} />
           {title}
         </button>
       </th>
-      <td class={`nowrap ${one.fault === null ? "" : "bad strong"}`}>{endOf(one)}</td>
-      <td>{metricOf(one, "peak_position_error_rad", DEGREES_PER_RADIAN)}</td>
-      <td>{metricOf(one, "steady_state_position_error_rad", DEGREES_PER_RADIAN)}</td>
-      <td>{recoveryOf(one)}</td>
-      <td>{metricOf(one, "peak_stiffness_error_nm_per_rad")}</td>
+      <td class={`nowrap ${trace.fault === null ? "" : "bad strong"}`}>{endOf(trace)}</td>
+      <td>{metricOf(trace, "peak_position_error_rad", DEGREES_PER_RADIAN)}</td>
+      <td>{metricOf(trace, "steady_state_position_error_rad", DEGREES_PER_RADIAN)}</td>
+      <td>{recoveryOf(trace)}</td>
+      <td>{metricOf(trace, "peak_stiffness_error_nm_per_rad")}</td>
       <td>
         <button
           type="button"
@@ -73,7 +73,7 @@ function Row({ one, lineStyle, onDraw }: RowProps) {
           title={words.seeHint}
           aria-label={words.seeLabel(title)}
           disabled={isBusy.value !== ""}
-          onClick={() => void openInLab(one.law)}
+          onClick={() => void openInLab(trace.law)}
         >
           {words.see}
         </button>
@@ -123,11 +123,11 @@ export function Laws({ traces, drawn, isRunning, onDraw }: LawsProps) {
       <p role="status">{isRunning ? words.running : words.held(held, traces.length)}</p>
       <Choice />
       <Table heads={Object.values(words.columns)}>
-        {rankLaws(traces).map((one) => (
+        {rankLaws(traces).map((trace) => (
           <Row
-            key={one.law}
-            one={one}
-            lineStyle={drawn.find(({ law }) => law === one.law)?.lineStyle}
+            key={trace.law}
+            trace={trace}
+            lineStyle={drawn.find(({ law }) => law === trace.law)?.lineStyle}
             onDraw={onDraw}
           />
         ))}

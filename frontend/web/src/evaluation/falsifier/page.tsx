@@ -71,7 +71,7 @@ function SavedScenarios() {
 
 /** The latest picture and outcomes of the laws. */
 function Under() {
-  const one = scenario.value;
+  const shownScenario = scenario.value;
   const [picked, setPicked] = useState<readonly Law[] | null>(null);
   const requestedKey = useComputed(() => scenario.value && keyOf(scenario.value, laws.value)).value;
   useEffect(() => void traceSelection(), [requestedKey]);
@@ -79,20 +79,20 @@ function Under() {
   const names = picked ?? trace?.laws.map(({ law }) => law).slice(0, MAX_DRAWN) ?? [];
   const installed = installedLaws.value;
   const drawn = useMemo(() => {
-    const found = names.flatMap((law) => trace?.laws.find((other) => other.law === law) ?? []);
-    const lineStyles = lineStylesOfLaws(found.map(({ law }) => law));
-    return found.map(
-      (one, index): DrawnLaw => ({ ...one, lineStyle: lineStyles[index] as LineStyle }),
+    const tracedLaws = names.flatMap((law) => trace?.laws.find((other) => other.law === law) ?? []);
+    const lineStyles = lineStylesOfLaws(tracedLaws.map(({ law }) => law));
+    return tracedLaws.map(
+      (lawTrace, index): DrawnLaw => ({ ...lawTrace, lineStyle: lineStyles[index] as LineStyle }),
     );
   }, [trace, names.join(), installed]);
-  if (one === null) return null;
+  if (shownScenario === null) return null;
   if (!mayCall("post", "/scenarios/runs")) return <p class="hint wide">{words.observer}</p>;
   if (trace === null) return <p class="hint wide">{problem.value === "" && words.running}</p>;
   const draw = (law: Law) =>
     setPicked(names.includes(law) ? names.filter((name) => name !== law) : [...names, law]);
   return (
     <>
-      <TracePlots scenario={one} trace={trace} drawn={drawn} />
+      <TracePlots scenario={shownScenario} trace={trace} drawn={drawn} />
       <Laws
         traces={trace.laws}
         drawn={drawn}

@@ -40,13 +40,13 @@ function curvesOf(chart: Chart, trace: Trace, drawn: readonly DrawnLaw[]): Stati
       values: trace.torque_nm.map((torques) => torques[at] as number),
     })).filter(({ values }, at) => at === 0 || values.some((value) => value !== 0));
   }
-  return drawn.map((one) => ({
-    key: one.law,
-    ...one.lineStyle,
+  return drawn.map((lawTrace) => ({
+    key: lawTrace.law,
+    ...lawTrace.lineStyle,
     values:
       chart === "position"
-        ? one.position_error_rad.map((value) => value && value * DEGREES_PER_RADIAN)
-        : one.stiffness_error_nm_per_rad,
+        ? lawTrace.position_error_rad.map((value) => value && value * DEGREES_PER_RADIAN)
+        : lawTrace.stiffness_error_nm_per_rad,
   }));
 }
 
@@ -54,14 +54,14 @@ function curvesOf(chart: Chart, trace: Trace, drawn: readonly DrawnLaw[]): Stati
 function drawCrosses(plot: uPlot, trace: Trace, drawn: readonly DrawnLaw[]): void {
   const { ctx: context } = plot;
   const reach = CROSS_PX * devicePixelRatio;
-  drawn.forEach((one, at) => {
+  drawn.forEach((lawTrace, at) => {
     const values = plot.data[at + 1] ?? [];
-    const last = one.position_error_rad.filter((value) => value !== null).length - 1;
-    if (one.fault === null || last < 0) return;
+    const last = lawTrace.position_error_rad.filter((value) => value !== null).length - 1;
+    if (lawTrace.fault === null || last < 0) return;
     const x = plot.valToPos(trace.time_s[last] as number, "x", true);
     const y = plot.valToPos(values[last] as number, "y", true);
     context.save();
-    context.strokeStyle = palette.peek()[one.lineStyle.colour];
+    context.strokeStyle = palette.peek()[lawTrace.lineStyle.colour];
     context.lineWidth = 2.5 * devicePixelRatio;
     context.setLineDash([]);
     context.beginPath();

@@ -89,8 +89,8 @@ function Facts({ scenario }: { scenario: Scenario }) {
         </p>
       )}
       <ul class="bullets">
-        {parts.map((one) => (
-          <li key={one}>{one}</li>
+        {parts.map((part) => (
+          <li key={part}>{part}</li>
         ))}
       </ul>
     </>

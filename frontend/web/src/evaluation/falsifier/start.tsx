@@ -24,21 +24,23 @@ const RUNS = 20_000;
 /** Base of the runs: effects, references. */
 function Base({ form, onChange }: FieldsProps) {
   const { base } = form;
-  const effects = EFFECTS.find((one) => one === (base.effects ?? "ideal"));
+  const effects = EFFECTS.find((effect) => effect === (base.effects ?? "ideal"));
   return (
     <div class="pair">
       <SelectField
         label={words.effects}
         value={effects ?? "given"}
         options={effects ? EFFECTS : [...EFFECTS, "given" as const]}
-        name={(one) => words.effect[one]}
-        onChoose={(one) => one !== "given" && onChange({ base: { ...base, effects: one } })}
+        name={(effect) => words.effect[effect]}
+        onChoose={(effect) =>
+          effect !== "given" && onChange({ base: { ...base, effects: effect } })
+        }
       />
       <SelectField
         label={words.figure}
         value={String(base.figure ?? FIGURES[0])}
         options={FIGURES}
-        name={(one) => text.figures.name[one as (typeof FIGURES)[number]]}
+        name={(figure) => text.figures.name[figure as (typeof FIGURES)[number]]}
         onChoose={(figure) => onChange({ base: { ...base, figure } })}
       />
     </div>
@@ -63,7 +65,7 @@ function Loads({ form, onChange }: FieldsProps) {
           number={at + 1}
           term={term}
           canBeRemoved={terms.length > 1}
-          onChange={(changed) => set(terms.map((one, place) => (place === at ? changed : one)))}
+          onChange={(changed) => set(terms.map((other, place) => (place === at ? changed : other)))}
           onRemove={() => set(terms.filter((_, place) => place !== at))}
         />
       ))}

@@ -66,7 +66,7 @@ export function TermFields({ number, term, canBeRemoved, onChange, onRemove }: T
       <p class="row">
         <span class="hint">{words.onBodies}</span>
         {BODIES.map((body) => {
-          const others = term.bodies.filter((one) => one !== body);
+          const others = term.bodies.filter((other) => other !== body);
           const isOn = others.length < term.bodies.length;
           return (
             <label key={body}>

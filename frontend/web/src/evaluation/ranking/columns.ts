@@ -40,13 +40,13 @@ export const writeDegrees = (value: number | null | undefined): string =>
   value === null || value === undefined ? words.fault : formatNumber(toDegrees(value));
 
 const outcomeOf = (row: Row, scenario: string): Outcome | undefined =>
-  row.scenarios.find((one) => one.scenario === scenario);
+  row.scenarios.find((outcome) => outcome.scenario === scenario);
 
 /** Median and worst peak error, and faults, of a fixed scenario. */
-export const writeOutcome = (one: Outcome | undefined): string => {
-  if (one === undefined) return "";
-  const pair = `${writeDegrees(one.median[PEAK])} / ${writeDegrees(one.worst_values[PEAK])}`;
-  return one.faults > 0 ? words.withFaults(pair, one.faults, one.runs) : pair;
+export const writeOutcome = (outcome: Outcome | undefined): string => {
+  if (outcome === undefined) return "";
+  const pair = `${writeDegrees(outcome.median[PEAK])} / ${writeDegrees(outcome.worst_values[PEAK])}`;
+  return outcome.faults > 0 ? words.withFaults(pair, outcome.faults, outcome.runs) : pair;
 };
 
 const fixed = (key: Column["key"], scenario: string): Column => ({
@@ -102,7 +102,7 @@ export const COLUMNS: readonly Column[] = [
 /** Sorted rows; those without a value come last, equal ones by rank. */
 export function sortRows(results: Results | null, key: string, isDown: boolean): readonly Row[] {
   if (results === null) return [];
-  const column = COLUMNS.find((one) => one.key === key);
+  const column = COLUMNS.find(({ key: columnKey }) => columnKey === key);
   if (column === undefined) return results.rows;
   return sortBy(results.rows, (row) => column.read(row, results), isDown);
 }

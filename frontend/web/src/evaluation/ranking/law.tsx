@@ -11,10 +11,10 @@ const words = text.ranking;
 
 function Source({ source }: { source: string }) {
   if (source === "") return null;
-  const { said, doi } = splitSource(source);
+  const { said: citation, doi } = splitSource(source);
   return (
     <p class="hint">
-      {words.source} {said}
+      {words.source} {citation}
       {doi !== "" && (
         <a href={`https://doi.org/${doi}`} target="_blank" rel="noreferrer">
           {words.doi(doi)}
@@ -45,7 +45,7 @@ const percentOf = (value: number | null | undefined): string =>
 const secondsOf = (value: number | null | undefined): string =>
   value === null || value === undefined ? "–" : formatNumber(value);
 
-function ScenarioRow({ row, one }: { row: Row; one: Outcome }) {
+function ScenarioRow({ row, outcome }: { row: Row; outcome: Outcome }) {
   return (
     <tr>
       <th scope="row">
@@ -53,17 +53,17 @@ function ScenarioRow({ row, one }: { row: Row; one: Outcome }) {
           type="button"
           title={words.seeWorst}
           disabled={isBusy.value !== ""}
-          onClick={() => void openInLab(row.key, one.worst)}
+          onClick={() => void openInLab(row.key, outcome.worst)}
         >
-          {one.title}
+          {outcome.title}
         </button>
       </th>
-      <td class="number">{writeOutcome(one)}</td>
-      <td class="number">{`${percentOf(one.median[SHARE])} / ${percentOf(one.worst_values[SHARE])}`}</td>
+      <td class="number">{writeOutcome(outcome)}</td>
+      <td class="number">{`${percentOf(outcome.median[SHARE])} / ${percentOf(outcome.worst_values[SHARE])}`}</td>
       <td class="number">
-        {`${secondsOf(one.median[RECOVERY])} / ${secondsOf(one.worst_values[RECOVERY])}`}
+        {`${secondsOf(outcome.median[RECOVERY])} / ${secondsOf(outcome.worst_values[RECOVERY])}`}
       </td>
-      <td class="number">{words.ofRuns(one.held, one.runs)}</td>
+      <td class="number">{words.ofRuns(outcome.held, outcome.runs)}</td>
     </tr>
   );
 }
@@ -82,8 +82,8 @@ function Scenarios({ row }: { row: Row }) {
         </tr>
       </thead>
       <tbody>
-        {row.scenarios.map((one) => (
-          <ScenarioRow key={one.scenario} row={row} one={one} />
+        {row.scenarios.map((outcome) => (
+          <ScenarioRow key={outcome.scenario} row={row} outcome={outcome} />
         ))}
       </tbody>
     </table>

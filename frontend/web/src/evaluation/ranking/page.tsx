@@ -30,17 +30,17 @@ function Legend() {
 /** Every law with the same plant, limits, noise and loads. */
 export function RankingPage() {
   useEffect(() => void openRanking(), []);
-  const found = results.value;
-  const versions = [...new Set(found?.rows.map(({ version }) => version))];
+  const ranking = results.value;
+  const versions = [...new Set(ranking?.rows.map(({ version }) => version))];
   return (
     <Page title={words.title} lead={words.lead} problem={problem.value}>
-      {found === null ? (
+      {ranking === null ? (
         problem.value === "" && <p class="hint">{words.loading}</p>
       ) : (
         <>
           <RankingTable />
           <p class="hint">
-            <MathSymbol text={words.provenance({ ...found, versions })} />
+            <MathSymbol text={words.provenance({ ...ranking, versions })} />
           </p>
           <Legend />
           <div class="halves">

@@ -7,9 +7,9 @@ import { chosen, isBusy, openInLab, results, rows, sort, titleOfRow } from "./ra
 const words = text.ranking;
 
 function Cell({ column, row }: { column: Column; row: Row }) {
-  const found = results.value;
-  if (found === null) return <td />;
-  const shown = column.write(row, found);
+  const ranking = results.value;
+  if (ranking === null) return <td />;
+  const shown = column.write(row, ranking);
   const scenario = column.scenarioOf?.(row);
   if (scenario === undefined) return <td class="number">{shown}</td>;
   const { name } = words.columns[column.key];

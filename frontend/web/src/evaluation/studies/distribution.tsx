@@ -42,7 +42,7 @@ export function Distribution() {
         padding: [8, 12, 0, 0],
         scales: { x: { time: false, distr: isLog ? 3 : 1 }, y: { range: () => [0, 102] } },
         axes: [otherAxis("x", { isLog }), otherAxis("y", { label: words.below })],
-        series: [{}, ...lineStyles.map((one) => drawnCurve({ ...one, width: 2 }))],
+        series: [{}, ...lineStyles.map((lineStyle) => drawnCurve({ ...lineStyle, width: 2 }))],
       },
       data: [at, ...curves],
     }),

@@ -20,10 +20,10 @@ interface Dots {
 type Offset = readonly [number, number];
 const MANY = 20_000;
 const square = (from: number, to: number, keep: (x: number, y: number) => boolean): Offset[] => {
-  const found: Offset[] = [];
+  const offsets: Offset[] = [];
   for (let y = from; y <= to; y++)
-    for (let x = from; x <= to; x++) if (keep(x, y)) found.push([x, y]);
-  return found;
+    for (let x = from; x <= to; x++) if (keep(x, y)) offsets.push([x, y]);
+  return offsets;
 };
 const LARGE = {
   disc: square(-2, 2, (x, y) => x * x + y * y <= 5),
@@ -54,7 +54,7 @@ export function paintDots(plot: uPlot, dots: Dots): void {
   const rise = plot.scales.y?.distr === 3 ? Math.log : (value: number) => value;
   const [x0, x1] = [scale(plot.scales.x?.min ?? 0), scale(plot.scales.x?.max ?? 1)];
   const [y0, y1] = [rise(plot.scales.y?.min ?? 0), rise(plot.scales.y?.max ?? 1)];
-  const colours = dots.colours.map((one) => packColour(one, 235));
+  const colours = dots.colours.map((colour) => packColour(colour, 235));
   const faint = packColour(dots.faint, 70);
   for (const round of [0, 1]) {
     for (let index = 0; index < dots.x.length; index++) {

@@ -12,17 +12,17 @@ export const columnOf = (name: string): StudyColumn | undefined =>
   study.value?.columns.find((column) => column.name === name);
 
 /** Values on screen; categories jittered around their positions. */
-export function screenValues(found: Rows, name: string): Float64Array {
-  const column = found.columns.get(name);
-  if (column === undefined) return new Float64Array(found.count).fill(Number.NaN);
+export function screenValues(studyRows: Rows, name: string): Float64Array {
+  const column = studyRows.columns.get(name);
+  if (column === undefined) return new Float64Array(studyRows.count).fill(Number.NaN);
   if (column.labels !== null) return spreadNames(column.values);
   const factor = factorOf(columnOf(name)?.unit ?? "");
   return factor === 1 ? column.values : column.values.map((value) => value * factor);
 }
 
-function buildAxis(found: Rows, name: string, values: Float64Array): Axis {
+function buildAxis(studyRows: Rows, name: string, values: Float64Array): Axis {
   const column = columnOf(name);
-  const labels = found.columns.get(name)?.labels ?? null;
+  const labels = studyRows.columns.get(name)?.labels ?? null;
   const wantsLog = column?.is_log || (column?.role === "metric" && spreadsByRatios(values));
   const { span, isLog } = scaleOf(values, labels === null && wantsLog === true);
   return { label: column ? nameColumn(column) : name, span, isLog, labels };
@@ -30,10 +30,10 @@ function buildAxis(found: Rows, name: string, values: Float64Array): Axis {
 
 const buildPlane = (plane: Plane) =>
   computed(() => {
-    const found = rows.value;
+    const studyRows = rows.value;
     const [xName, yName] = [axes.value[`${plane}x`] ?? "", axes.value[`${plane}y`] ?? ""];
-    const [x, y] = [screenValues(found, xName), screenValues(found, yName)];
-    return { x, y, across: buildAxis(found, xName, x), up: buildAxis(found, yName, y) };
+    const [x, y] = [screenValues(studyRows, xName), screenValues(studyRows, yName)];
+    return { x, y, across: buildAxis(studyRows, xName, x), up: buildAxis(studyRows, yName, y) };
   });
 
 export const planes = { s: buildPlane("s"), t: buildPlane("t") } as const;

@@ -58,29 +58,29 @@ function SavedStudies() {
 }
 
 /** Progress of a study, and its commands. */
-function Progress({ found }: { found: Study }) {
-  const { job } = found;
+function Progress({ shownStudy }: { shownStudy: Study }) {
+  const { job } = shownStudy;
   return (
     <JobProgress
       job={job}
-      done={words.state(found.done, found.rows)}
-      total={found.rows}
-      label={words.progress(found.name)}
+      done={words.state(shownStudy.done, shownStudy.rows)}
+      total={shownStudy.rows}
+      label={words.progress(shownStudy.name)}
       onCancel={() => void cancel()}
     >
-      {found.done < found.rows && (
+      {shownStudy.done < shownStudy.rows && (
         <button
           type="button"
           class="button"
           title={words.goOnHint}
           disabled={isBusy.value !== ""}
-          onClick={() => void startNewStudy({ source: found.name })}
+          onClick={() => void startNewStudy({ source: shownStudy.name })}
         >
           {words.goOn}
         </button>
       )}
-      {found.done > 0 && (
-        <a class="button" href={tableOf(found.name)} download title={words.tableHint}>
+      {shownStudy.done > 0 && (
+        <a class="button" href={tableOf(shownStudy.name)} download title={words.tableHint}>
           {words.table}
         </a>
       )}
@@ -89,7 +89,7 @@ function Progress({ found }: { found: Study }) {
 }
 
 /** Delete after confirmation: the rows cannot be restored. */
-function Deletion({ found }: { found: Study }) {
+function Deletion({ shownStudy }: { shownStudy: Study }) {
   const isGone = isBusy.value === "delete";
   return (
     <Popup
@@ -100,13 +100,13 @@ function Deletion({ found }: { found: Study }) {
     >
       {(close) => (
         <>
-          <p>{words.deleteSure(found.name, found.done)}</p>
+          <p>{words.deleteSure(shownStudy.name, shownStudy.done)}</p>
           <button
             type="button"
             class="button"
             onClick={() => {
               close();
-              void remove(found.name);
+              void remove(shownStudy.name);
             }}
           >
             {words.deleteNow}
@@ -117,18 +117,20 @@ function Deletion({ found }: { found: Study }) {
   );
 }
 
-function StudyView({ found }: { found: Study }) {
+function StudyView({ shownStudy }: { shownStudy: Study }) {
   const { count, total } = rows.value;
   return (
     <div class="halves">
       <div class="surface card wide">
         <div class="spread">
           <h3>
-            {found.is_example && <Example />} {found.title}
+            {shownStudy.is_example && <Example />} {shownStudy.title}
           </h3>
-          {!found.is_example && mayCall("delete", "/studies/{study}") && <Deletion found={found} />}
+          {!shownStudy.is_example && mayCall("delete", "/studies/{study}") && (
+            <Deletion shownStudy={shownStudy} />
+          )}
         </div>
-        <Progress found={found} />
+        <Progress shownStudy={shownStudy} />
         {count > 0 && (
           <p class="row studies-brushed">
             <span class="muted">{words.marks}</span>{" "}
@@ -139,7 +141,7 @@ function StudyView({ found }: { found: Study }) {
                 value={shownLaw.value || EVERY_LAW}
                 onChange={(event) => setView({ law: event.currentTarget.value })}
               >
-                {found.laws.map((law) => (
+                {shownStudy.laws.map((law) => (
                   <option key={law} value={law}>
                     {titleOf(law)}
                   </option>
@@ -157,7 +159,7 @@ function StudyView({ found }: { found: Study }) {
         {total > count && <p class="hint">{words.thinned(count, total)}</p>}
       </div>
       {count === 0 ? (
-        <p class="hint wide">{found.done === 0 ? words.empty : words.loadingRuns}</p>
+        <p class="hint wide">{shownStudy.done === 0 ? words.empty : words.loadingRuns}</p>
       ) : (
         <>
           <LawTable />
@@ -183,7 +185,7 @@ export function StudiesPage() {
     void follow(name);
     return () => leave(name);
   }, [name]);
-  const found = study.value;
+  const shownStudy = study.value;
   return (
     <PageWithForm
       title={words.title}
@@ -196,10 +198,10 @@ export function StudiesPage() {
         </>
       }
     >
-      {found === null ? (
+      {shownStudy === null ? (
         <p class="hint">{problem.value === "" && words.loading}</p>
       ) : (
-        <StudyView found={found} />
+        <StudyView shownStudy={shownStudy} />
       )}
     </PageWithForm>
   );

@@ -68,14 +68,14 @@ export function findNearest(
   at: readonly [number, number],
   reach: number,
 ): number | null {
-  let [best, found] = [reach * reach, -1];
+  let [best, nearest] = [reach * reach, -1];
   for (let index = 0; index < marks.length; index++) {
     if (marks[index] === 0) continue;
     const [left, top] = place(x[index] as number, y[index] as number);
     const distance = (left - at[0]) ** 2 + (top - at[1]) ** 2;
-    if (distance <= best) [best, found] = [distance, index];
+    if (distance <= best) [best, nearest] = [distance, index];
   }
-  return found < 0 ? null : found;
+  return nearest < 0 ? null : nearest;
 }
 
 interface Cell {

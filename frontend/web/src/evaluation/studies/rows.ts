@@ -25,14 +25,14 @@ export function unpackRows(packed: ArrayBuffer): Rows {
   const length = new DataView(packed).getUint32(0, true);
   const text = new TextDecoder().decode(new Uint8Array(packed, 4, length));
   const { rows: count, total, columns } = JSON.parse(text) as Header;
-  const found = columns.map(({ name, labels }, index): [string, Column] => [
+  const namedColumns = columns.map(({ name, labels }, index): [string, Column] => [
     name,
     {
       values: new Float64Array(packed, 4 + length + 8 * count * index, count),
       labels: labels ?? null,
     },
   ]);
-  return { count, total, columns: new Map(found) };
+  return { count, total, columns: new Map(namedColumns) };
 }
 
 const NONE = new Float64Array(0);

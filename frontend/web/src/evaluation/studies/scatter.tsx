@@ -148,8 +148,8 @@ export function Scatter({ plane }: { plane: Plane }) {
         onPick: (plot, left, top) => {
           const place = (at: number, height: number) =>
             [plot.valToPos(at, "x"), plot.valToPos(height, "y")] as const;
-          const found = findNearest(x, y, shownMarks.peek(), place, [left, top], REACH_PX);
-          if (found !== null) void selectRow(valuesOf(rows.peek(), "row")[found] as number);
+          const nearest = findNearest(x, y, shownMarks.peek(), place, [left, top], REACH_PX);
+          if (nearest !== null) void selectRow(valuesOf(rows.peek(), "row")[nearest] as number);
           else if (brush.peek() !== null) setBrush(null);
         },
         watch: (plot) =>

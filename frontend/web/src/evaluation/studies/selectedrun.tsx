@@ -24,18 +24,18 @@ function Cell({ row, name, unit }: { row: StudyRow; name: string; unit: string }
 
 /** The selected run: settings, result, and a link to its 3D view. */
 export function SelectedRun() {
-  const found = selectedRows.value;
+  const rows = selectedRows.value;
   const columns = (study.value?.columns ?? []).filter(
     ({ role }) => role === "varied" || role === "metric",
   );
-  const numbers = found.map((row) => Number(row.row));
+  const numbers = rows.map((row) => Number(row.row));
   return (
     <section
       class="surface card wide"
       aria-label={words.row(numbers.at(-1) ?? 0)}
       aria-live="polite"
     >
-      {found.length === 0 ? (
+      {rows.length === 0 ? (
         <p class="hint">{words.pickHint}</p>
       ) : (
         <>
@@ -43,7 +43,7 @@ export function SelectedRun() {
             <thead>
               <tr>
                 <td />
-                {found.map((row) => (
+                {rows.map((row) => (
                   <th key={Number(row.row)} scope="col">
                     {words.row(Number(row.row))}
                     <small class="block">
@@ -66,14 +66,14 @@ export function SelectedRun() {
               {columns.map(({ name, label, unit }) => (
                 <tr key={name}>
                   <th scope="row">{nameColumn({ label, unit })}</th>
-                  {found.map((row) => (
+                  {rows.map((row) => (
                     <Cell key={Number(row.row)} row={row} name={name} unit={unit} />
                   ))}
                 </tr>
               ))}
             </tbody>
           </table>
-          {found.length > 1 && (
+          {rows.length > 1 && (
             <button
               type="button"
               class="button"

@@ -15,8 +15,8 @@ async function requestPending(): Promise<void> {
   while (pending.size > 0) {
     const batch = [...pending].slice(0, BATCH_SIZE);
     try {
-      const found = await estimateShares(batch.map(([, counts]) => counts));
-      const pairs = batch.map(([key], at) => [key, found[at] as Estimate] as const);
+      const newEstimates = await estimateShares(batch.map(([, counts]) => counts));
+      const pairs = batch.map(([key], at) => [key, newEstimates[at] as Estimate] as const);
       for (const [key] of batch) pending.delete(key);
       estimates.value = new Map([...estimates.peek(), ...pairs]);
     } catch {
@@ -33,8 +33,8 @@ async function requestPending(): Promise<void> {
  */
 export function shareOf(count: number, total: number): Estimate | null {
   const key = `${count}/${total}`;
-  const found = estimates.value.get(key);
-  if (found !== undefined) return found;
+  const estimate = estimates.value.get(key);
+  if (estimate !== undefined) return estimate;
   pending.set(key, [count, total]);
   if (!isRequesting) {
     isRequesting = true;

@@ -27,8 +27,8 @@ export function Start() {
   const [plan, setPlan] = useState<StudyPlan | null>(null);
   const builtIn = list.value?.built_in ?? [];
   const metrics = list.value?.metrics ?? [];
-  const offered = metrics.map((one) => ({ name: one.name, title: nameColumn(one) }));
-  const successMetric = metrics.find((one) => one.name === metric);
+  const offered = metrics.map((column) => ({ name: column.name, title: nameColumn(column) }));
+  const successMetric = metrics.find((column) => column.name === metric);
   const build = (): StudyChanges => ({
     ...(source === OWN ? { text: own } : { source }),
     ...(name !== "" && { name }),
@@ -117,8 +117,10 @@ export function Start() {
         label={words.success}
         title={words.successHint}
         value={metric}
-        options={["", ...offered.map((one) => one.name)]}
-        name={(one) => offered.find(({ name }) => name === one)?.title ?? words.asInStudy}
+        options={["", ...offered.map((option) => option.name)]}
+        name={(metricName) =>
+          offered.find(({ name }) => name === metricName)?.title ?? words.asInStudy
+        }
         onChoose={(chosen) => change(() => setMetric(chosen))}
       />
       <NumberField

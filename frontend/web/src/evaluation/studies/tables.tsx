@@ -16,8 +16,8 @@ const words = text.studies;
 
 /** An estimate with its interval times a factor, or a note that there is no interval. */
 function formatEstimate({ value, low, high }: Estimate, factor: number, decimals?: number): string {
-  const shown = (one: number | null) =>
-    one === null ? null : formatNumber(one * factor, decimals ?? 3, decimals);
+  const shown = (quantity: number | null) =>
+    quantity === null ? null : formatNumber(quantity * factor, decimals ?? 3, decimals);
   return words.estimate(shown(value) ?? "–", shown(low), shown(high));
 }
 
@@ -48,7 +48,7 @@ export const LawName = ({ law, place }: { law: string; place: number }) => (
 );
 
 export function LawTable() {
-  const found = summary.value;
+  const studySummary = summary.value;
   const metric = columnOf(axes.value.metric ?? "");
   const formatMetric = (value: number | null | undefined) =>
     value === null
@@ -57,7 +57,7 @@ export function LawTable() {
   return (
     <section class="surface card wide" aria-label={words.byLaw}>
       <h3>{words.byLaw}</h3>
-      {found === null && (
+      {studySummary === null && (
         <p class="hint" role="status">
           {isJobRunning(study.value?.job ?? null) ? words.later : words.summing}
         </p>
@@ -73,8 +73,8 @@ export function LawTable() {
         ]}
       >
         {(study.value?.laws ?? []).map((law, place) => {
-          const one = found?.laws.find((row) => row.law === law);
-          const faults = Object.entries(one?.faults ?? {}).map(
+          const lawRow = studySummary?.laws.find((row) => row.law === law);
+          const faults = Object.entries(lawRow?.faults ?? {}).map(
             ([code, count]) => `${count} ${writeFault(code)}`,
           );
           return (
@@ -82,21 +82,23 @@ export function LawTable() {
               <th scope="row">
                 <LawName law={law} place={place} />
               </th>
-              <td>{one?.runs.toLocaleString("en") ?? "–"}</td>
-              <td>{one ? formatShare(one.success) : "–"}</td>
+              <td>{lawRow?.runs.toLocaleString("en") ?? "–"}</td>
+              <td>{lawRow ? formatShare(lawRow.success) : "–"}</td>
               {brush.value && <td>{inBrush(place)}</td>}
               <td>
-                {one ? faults.join(", ") || words.noFaults : "–"}
-                {one && one.refused > 0 && `; ${words.refused(one.refused)}`}
+                {lawRow ? faults.join(", ") || words.noFaults : "–"}
+                {lawRow && lawRow.refused > 0 && `; ${words.refused(lawRow.refused)}`}
               </td>
               {metric && (
-                <td>{one ? one.quantiles[metric.name]?.map(formatMetric).join(" / ") : "–"}</td>
+                <td>
+                  {lawRow ? lawRow.quantiles[metric.name]?.map(formatMetric).join(" / ") : "–"}
+                </td>
               )}
             </tr>
           );
         })}
       </Table>
-      {(found?.pairings ?? []).map((pair) => {
+      {(studySummary?.pairings ?? []).map((pair) => {
         const difference = metric && pair.differences[metric.name];
         return (
           <p key={pair.other}>
@@ -134,16 +136,18 @@ export function Sensitivity() {
               .map((name) => (
                 <div key={name}>
                   <dt>{columnOf(name)?.label ?? name}</dt>
-                  {([own[name], total[name]] as const).map((one, at) => (
+                  {([own[name], total[name]] as const).map((estimate, at) => (
                     <dd
                       key={at === 0 ? "own" : "total"}
                       title={at === 0 ? words.itself : words.together}
                     >
                       <i
                         class={at === 0 ? "is-own" : "is-total"}
-                        style={{ width: `${100 * Math.min(1, Math.max(0, one?.value ?? 0))}%` }}
+                        style={{
+                          width: `${100 * Math.min(1, Math.max(0, estimate?.value ?? 0))}%`,
+                        }}
                       />
-                      <small>{formatEstimate(one ?? NONE, 1, 2)}</small>
+                      <small>{formatEstimate(estimate ?? NONE, 1, 2)}</small>
                     </dd>
                   ))}
                 </div>

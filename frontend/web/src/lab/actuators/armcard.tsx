@@ -26,15 +26,16 @@ export function ArmCard({ onProblem }: ArmCardProps) {
   useEffect(() => {
     readArms().then(setArms, (error: unknown) => onProblem(explain(error)));
   }, []);
-  const arm = arms.find((one) => one.name === name) ?? arms[0];
+  const arm = arms.find((candidate) => candidate.name === name) ?? arms[0];
   const [isOpening, open] = useOpening(
     () => openArm(arm?.name ?? "", chosen ?? undefined),
     onProblem,
   );
   if (arm === undefined) return null;
   const [first, second] = chosen ?? [arm.actuator, arm.actuator];
-  const names = (actuators.value ?? []).map((one) => one.name);
-  const titleOf = (of: string) => actuators.value?.find((one) => one.name === of)?.title ?? of;
+  const names = (actuators.value ?? []).map((actuator) => actuator.name);
+  const titleOf = (of: string) =>
+    actuators.value?.find((actuator) => actuator.name === of)?.title ?? of;
   return (
     <section class="surface stack card" aria-label={words.name}>
       <CardHead
@@ -47,7 +48,7 @@ export function ArmCard({ onProblem }: ArmCardProps) {
       />
       <Choice
         label={words.choose}
-        options={arms.map((one) => ({ value: one.name, label: one.title }))}
+        options={arms.map(({ name: value, title }) => ({ value, label: title }))}
         value={arm.name}
         onChoose={(next) => {
           setName(next);

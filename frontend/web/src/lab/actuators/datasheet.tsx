@@ -14,16 +14,16 @@ type Points = readonly (readonly [number, number])[];
 
 const curveOf = (points: Points, look: Curve["look"] = "tried"): Curve => ({ look, points });
 
-function Plots({ found }: { found: Datasheet }) {
+function Plots({ datasheet }: { datasheet: Datasheet }) {
   const deflection = { label: words.deflection };
   const overDeflection = (key: "torque_nm" | "stiffness_at_nm_per_rad") =>
-    found.presets.map((one) =>
-      curveOf(one.deflection_rad.map((rad, at) => [toDegrees(rad), one[key][at] ?? 0])),
+    datasheet.presets.map((preset) =>
+      curveOf(preset.deflection_rad.map((rad, at) => [toDegrees(rad), preset[key][at] ?? 0])),
     );
   const bounds = [1, 2].map((place) =>
-    curveOf(found.torque_stiffness.map((row) => [row[0], row[place] ?? 0])),
+    curveOf(datasheet.torque_stiffness.map((row) => [row[0], row[place] ?? 0])),
   );
-  const count = found.presets.length;
+  const count = datasheet.presets.length;
   return (
     <>
       <div class="cells">
@@ -48,19 +48,21 @@ function Plots({ found }: { found: Datasheet }) {
           y={{ label: words.stiffnessAxis }}
           curves={bounds}
         />
-        {found.torque_speed.length > 0 && (
+        {datasheet.torque_speed.length > 0 && (
           <Curves
             title={words.speeds}
             summary={words.summary(words.speeds, 1)}
             x={{ label: words.speed }}
             y={{ label: words.torqueAxis }}
-            curves={[curveOf(found.torque_speed.map(([speed, torque]) => [speed, torque]))]}
+            curves={[curveOf(datasheet.torque_speed.map(([speed, torque]) => [speed, torque]))]}
           />
         )}
       </div>
       <p class="hint">
         {words.presets(
-          found.presets.map((one) => formatNumber(one.stiffness_nm_per_rad, 3)).join(", "),
+          datasheet.presets
+            .map((preset) => formatNumber(preset.stiffness_nm_per_rad, 3))
+            .join(", "),
         )}
       </p>
     </>
@@ -68,13 +70,13 @@ function Plots({ found }: { found: Datasheet }) {
 }
 
 export function DatasheetCard({ actuator: { name } }: { actuator: ActuatorRow }) {
-  const [found, setFound] = useState<Datasheet | null>(null);
+  const [datasheet, setDatasheet] = useState<Datasheet | null>(null);
   const [problem, setProblem] = useState("");
   useEffect(() => {
     let isGone = false;
     readDatasheet(name).then(
       (answer) => {
-        if (!isGone) setFound(answer);
+        if (!isGone) setDatasheet(answer);
       },
       (error: unknown) => {
         if (!isGone) setProblem(explain(error));
@@ -101,12 +103,12 @@ export function DatasheetCard({ actuator: { name } }: { actuator: ActuatorRow })
         </p>
       </div>
       <ErrorLine>{problem}</ErrorLine>
-      {found === null ? (
+      {datasheet === null ? (
         problem === "" && <p class="hint">{words.measuring}</p>
       ) : (
         <>
           <Table label={words.datasheet} heads={[words.quantity, words.value]}>
-            {found.rows.map(([quantity, value]) => (
+            {datasheet.rows.map(([quantity, value]) => (
               <tr key={quantity}>
                 <th scope="row">{quantity}</th>
                 <td>{value}</td>
@@ -114,19 +116,21 @@ export function DatasheetCard({ actuator: { name } }: { actuator: ActuatorRow })
             ))}
           </Table>
           <h4>{words.published}</h4>
-          {found.published_rows.length === 0 ? (
+          {datasheet.published_rows.length === 0 ? (
             <p class="hint">{words.unpublished}</p>
           ) : (
             <ul class="bullets" aria-label={words.published}>
-              {found.published_rows.map(([quantity, measured, published, deviation, source]) => (
-                <li key={quantity}>
-                  {quantity}: {words.comparison(measured, published, deviation)}
-                  <p class="hint">{source}</p>
-                </li>
-              ))}
+              {datasheet.published_rows.map(
+                ([quantity, measured, published, deviation, source]) => (
+                  <li key={quantity}>
+                    {quantity}: {words.comparison(measured, published, deviation)}
+                    <p class="hint">{source}</p>
+                  </li>
+                ),
+              )}
             </ul>
           )}
-          <Plots found={found} />
+          <Plots datasheet={datasheet} />
         </>
       )}
     </section>

@@ -23,16 +23,16 @@ const shown = (value: number | string): string =>
 function Parameters({ actuator }: { actuator: ActuatorRow }) {
   return (
     <Table label={words.parameters} caption={words.parameters} heads={words.heads}>
-      {actuator.parameters.map((one) => (
-        <tr key={one.name}>
+      {actuator.parameters.map((parameter) => (
+        <tr key={parameter.name}>
           <th scope="row">
-            <MathSymbol text={one.meaning} />
+            <MathSymbol text={parameter.meaning} />
           </th>
-          <td>{shown(one.value)}</td>
-          <td>{shown(one.nominal)}</td>
-          <td>{one.unit === "1" ? "" : one.unit}</td>
-          <td class={one.assumed ? "muted" : ""}>
-            <MathSymbol text={one.source} />
+          <td>{shown(parameter.value)}</td>
+          <td>{shown(parameter.nominal)}</td>
+          <td>{parameter.unit === "1" ? "" : parameter.unit}</td>
+          <td class={parameter.assumed ? "muted" : ""}>
+            <MathSymbol text={parameter.source} />
           </td>
         </tr>
       ))}
@@ -96,8 +96,8 @@ export function ActuatorsPage() {
   const isOfArm = named === ARM;
   const [problem, setProblem] = useState("");
   useEffect(() => setProblem(""), [named]);
-  const found = actuators.value ?? [];
-  const actuator = found.find(({ name }) => name === named) ?? found[0];
+  const rows = actuators.value ?? [];
+  const actuator = rows.find(({ name }) => name === named) ?? rows[0];
   return (
     <Page title={words.title} lead={words.lead} problem={problem}>
       {actuator === undefined ? (
@@ -108,7 +108,7 @@ export function ActuatorsPage() {
             <Choice
               label={words.choose}
               options={[
-                ...found.map(({ name, title }) => ({ value: name, label: title })),
+                ...rows.map(({ name, title }) => ({ value: name, label: title })),
                 { value: ARM, label: text.arm.name },
               ]}
               value={isOfArm ? ARM : actuator.name}

@@ -123,14 +123,14 @@ export class ArmPicture {
 
   #drawEllipse(q: readonly [number, number], stiffness: readonly [number, number]): void {
     const { lengths, most } = this.arm;
-    const found = ellipseOf(lengths, q, stiffness);
+    const ellipse = ellipseOf(lengths, q, stiffness);
     const part = this.#find("ellipse");
     if (part === null || this.tip === null) return;
-    part.style.visibility = found === null ? "hidden" : "visible";
-    this.readout.textContent = found === null ? words.straight : describeExtremes(found);
-    if (found === null) return;
-    const [long, short] = axesOf(lengths, found, most);
-    const degrees = (-found.angle * 180) / Math.PI;
+    part.style.visibility = ellipse === null ? "hidden" : "visible";
+    this.readout.textContent = ellipse === null ? words.straight : describeExtremes(ellipse);
+    if (ellipse === null) return;
+    const [long, short] = axesOf(lengths, ellipse, most);
+    const degrees = (-ellipse.angle * 180) / Math.PI;
     part.setAttribute("rx", (this.#scale * long).toFixed(1));
     part.setAttribute("ry", (this.#scale * short).toFixed(1));
     part.setAttribute(

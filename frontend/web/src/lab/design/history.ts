@@ -121,65 +121,65 @@ export function designOf(state: SessionState): Design {
 }
 
 /** Laws of both designs with different settings. */
-const changedLaws = (one: JointDesign, other: JointDesign): string[] =>
-  Object.keys(one.parameters).filter(
-    (law) => law in other.parameters && !isEqual(one.parameters[law], other.parameters[law]),
+const changedLaws = (design: JointDesign, other: JointDesign): string[] =>
+  Object.keys(design.parameters).filter(
+    (law) => law in other.parameters && !isEqual(design.parameters[law], other.parameters[law]),
   );
 
 /**
  * Lanes of both designs with different settings; if the law differs, only if settings were lost.
  */
-const changedLanes = (one: Design, other: Design): string[] =>
-  Object.keys(one.comparisons).filter((id) => {
-    const [held, now] = [one.comparisons[id], other.comparisons[id]];
+const changedLanes = (design: Design, other: Design): string[] =>
+  Object.keys(design.comparisons).filter((id) => {
+    const [held, now] = [design.comparisons[id], other.comparisons[id]];
     if (held === undefined || now === undefined || isEqual(held, now)) return false;
     return held.law === now.law || hasOwnSettings(held);
   });
 
 /** Removed lanes that had their own settings. */
-const lostLanes = (one: Design, other: Design): string[] =>
-  Object.keys(one.comparisons).filter(
-    (id) => other.comparisons[id] === undefined && hasOwnSettings(one.comparisons[id] as Lane),
+const lostLanes = (design: Design, other: Design): string[] =>
+  Object.keys(design.comparisons).filter(
+    (id) => other.comparisons[id] === undefined && hasOwnSettings(design.comparisons[id] as Lane),
   );
 
 /** Elements of `minuend` that `subtrahend` lacks, with multiplicity. */
 function difference<T>(
   minuend: readonly T[],
   subtrahend: readonly unknown[],
-  read: (one: T) => unknown,
+  read: (element: T) => unknown,
 ) {
-  const unmatched = subtrahend.map((one) => JSON.stringify(one));
-  return minuend.filter((one) => {
-    const at = unmatched.indexOf(JSON.stringify(read(one)));
+  const unmatched = subtrahend.map((element) => JSON.stringify(element));
+  return minuend.filter((element) => {
+    const at = unmatched.indexOf(JSON.stringify(read(element)));
     if (at >= 0) unmatched.splice(at, 1);
     return at < 0;
   });
 }
 
 /** A restarted run has no loads: undo does not restore those of the previous run. */
-const lostLoads = (one: Design, other: Design): PlacedLoad[] =>
-  one.run === other.run ? difference(one.loads, other.loads, (load) => load) : [];
+const lostLoads = (design: Design, other: Design): PlacedLoad[] =>
+  design.run === other.run ? difference(design.loads, other.loads, (load) => load) : [];
 
 const KEYS = ["law", "effects", "references", "position", "stiffness", "observer"] as const;
 
-const differs = (key: (typeof KEYS)[number], one: JointDesign, other: JointDesign) =>
-  !isEqual(one[key], other[key]);
+const differs = (key: (typeof KEYS)[number], design: JointDesign, other: JointDesign) =>
+  !isEqual(design[key], other[key]);
 
-const isSameJoint = (one: JointDesign, other: JointDesign | undefined): boolean =>
+const isSameJoint = (design: JointDesign, other: JointDesign | undefined): boolean =>
   other !== undefined &&
-  !KEYS.some((key) => differs(key, one, other)) &&
-  changedLaws(one, other).length === 0;
+  !KEYS.some((key) => differs(key, design, other)) &&
+  changedLaws(design, other).length === 0;
 
 /**
  * Whether no undoable difference exists: removing a lane without its own settings is not undoable.
  */
-export const isSame = (one: Design, other: Design): boolean =>
-  one.joints.every((joint, index) => isSameJoint(joint, other.joints[index])) &&
-  isEqual(one.arm, other.arm) &&
-  lostLoads(one, other).length === 0 &&
-  lostLoads(other, one).length === 0 &&
-  changedLanes(one, other).length === 0 &&
-  lostLanes(one, other).length === 0;
+export const isSame = (design: Design, other: Design): boolean =>
+  design.joints.every((joint, index) => isSameJoint(joint, other.joints[index])) &&
+  isEqual(design.arm, other.arm) &&
+  lostLoads(design, other).length === 0 &&
+  lostLoads(other, design).length === 0 &&
+  changedLanes(design, other).length === 0 &&
+  lostLanes(design, other).length === 0;
 
 /** The steps after a change to `next`: the previous state is added. */
 function appendStep(kept: readonly Design[], before: Design): Design[] {
@@ -251,7 +251,7 @@ export function restoringRequests(design: Design, state: SessionState): SessionR
   const lost = lostLanes(design, now).map((id) => design.comparisons[id] as Lane);
   if (lost.length > 0) calls.push(putLanes([...comparisonsOf(state), ...lost]));
   for (const id of changedLanes(design, now)) {
-    const lane = comparisonLanes(state).find((one) => String(one.id) === id)?.lane;
+    const lane = comparisonLanes(state).find((candidate) => String(candidate.id) === id)?.lane;
     if (lane !== undefined) calls.push(putLane(lane, design.comparisons[id] as Lane));
   }
   // Last: a load changes the revision that settings are sent with.

@@ -11,30 +11,31 @@ const words = text.design;
 interface Line {
   label: string;
   hint: string;
-  read: (found: Prediction) => string;
+  read: (prediction: Prediction) => string;
   /** Share of a limit, if there is one. */
-  share?: (found: Prediction) => number | null;
+  share?: (prediction: Prediction) => number | null;
 }
 
-const noiseHint = (found: Prediction | null) => words.noiseHint[found?.noise?.encoders ?? "rig"];
+const noiseHint = (prediction: Prediction | null) =>
+  words.noiseHint[prediction?.noise?.encoders ?? "rig"];
 const orDash = <T,>(value: T | null | undefined, format: (value: T) => string) =>
   value === null || value === undefined ? "\u2013" : format(value);
 
-function linesOf(found: Prediction | null): Line[] {
+function linesOf(prediction: Prediction | null): Line[] {
   const state = session.value;
   const noise = (name: string, key: "torque1_rms_nm" | "torque2_rms_nm"): Line => ({
     label: words.noise(name),
-    hint: noiseHint(found),
+    hint: noiseHint(prediction),
     read: ({ noise }) =>
       noise && noise[key] === null ? words.unstableLoop : orDash(noise?.[key], torqueOf),
   });
   const steady = (label: string, hint: string, key: "steady" | "fl"): Line => ({
     label,
     hint,
-    read: (one) =>
-      one[key] === null && one.demand
+    read: (shown) =>
+      shown[key] === null && shown.demand
         ? words.none
-        : orDash(one[key]?.position_error_rad, degreesOf),
+        : orDash(shown[key]?.position_error_rad, degreesOf),
   });
   const peak = (
     name: string,
@@ -47,8 +48,10 @@ function linesOf(found: Prediction | null): Line[] {
     share: ({ demand }) => (demand && state ? demand[key] / largestTorque(state, motor) : null),
   });
   return [
-    ...(found === null ? [] : [steady(words.steady(found.law), words.steadyHint, "steady")]),
-    ...(found?.adds_estimate ? [steady(words.fl, words.flHint, "fl")] : []),
+    ...(prediction === null
+      ? []
+      : [steady(words.steady(prediction.law), words.steadyHint, "steady")]),
+    ...(prediction?.adds_estimate ? [steady(words.fl, words.flHint, "fl")] : []),
     noise("u₁", "torque1_rms_nm"),
     noise("u₂", "torque2_rms_nm"),
     peak("u₁", "peak_torque1_nm", "torque1_nm"),
@@ -71,8 +74,16 @@ function Bar({ share }: { share: number }) {
   );
 }
 
-function Row({ line, found, now }: { line: Line; found: Prediction; now: Prediction | null }) {
-  const share = line.share?.(found) ?? null;
+function Row({
+  line,
+  prediction,
+  now,
+}: {
+  line: Line;
+  prediction: Prediction;
+  now: Prediction | null;
+}) {
+  const share = line.share?.(prediction) ?? null;
   return (
     <tr>
       <th scope="row" title={line.hint}>
@@ -80,7 +91,7 @@ function Row({ line, found, now }: { line: Line; found: Prediction; now: Predict
         {share !== null && <Bar share={share} />}
       </th>
       <td>
-        {line.read(found)}
+        {line.read(prediction)}
         {share !== null && share > 1 && <small class="block bad strong"> {words.beyond}</small>}
       </td>
       <td class="present">{now && line.read(now)}</td>
@@ -90,9 +101,9 @@ function Row({ line, found, now }: { line: Line; found: Prediction; now: Predict
 
 const TONES = { ok: "is-good", note: "", warn: "is-warn", refuse: "is-bad" } as const;
 
-function Judgement({ found }: { found: Prediction }) {
-  const { reasons } = found;
-  const verdict = verdictOf(found);
+function Judgement({ prediction }: { prediction: Prediction }) {
+  const { reasons } = prediction;
+  const verdict = verdictOf(prediction);
   return (
     <section
       class={`line note small judgement ${TONES[verdict]}`}
@@ -115,15 +126,15 @@ function Judgement({ found }: { found: Prediction }) {
 
 /** The predicted behaviour of the design, next to that of the settings in use. */
 export function Outcome() {
-  const found = draftPrediction.value;
+  const prediction = draftPrediction.value;
   const now = currentPrediction.value;
-  if (found === null) return <p class="hint">{words.asking}</p>;
+  if (prediction === null) return <p class="hint">{words.asking}</p>;
   return (
     <div class={`stack ${isPredicting.value ? "is-stale" : ""}`}>
       <table class="metrics strong">
         <caption>
           {words.expected}{" "}
-          <span class="unit">{words.at(formatNumber(found.stiffness_nm_per_rad, 3, 1))}</span>
+          <span class="unit">{words.at(formatNumber(prediction.stiffness_nm_per_rad, 3, 1))}</span>
         </caption>
         <thead>
           <tr>
@@ -135,12 +146,12 @@ export function Outcome() {
           </tr>
         </thead>
         <tbody>
-          {linesOf(found).map((line) => (
-            <Row key={line.label} line={line} found={found} now={now} />
+          {linesOf(prediction).map((line) => (
+            <Row key={line.label} line={line} prediction={prediction} now={now} />
           ))}
         </tbody>
       </table>
-      <Judgement found={found} />
+      <Judgement prediction={prediction} />
     </div>
   );
 }

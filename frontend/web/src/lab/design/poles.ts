@@ -122,8 +122,8 @@ interface Place {
 export function countPlaces(poles: Poles): Place[] {
   const places: Place[] = [];
   for (const pole of poles) {
-    const found = places.find((one) => one.pole.re === pole.re && one.pole.im === pole.im);
-    if (found) found.count += 1;
+    const place = places.find((known) => known.pole.re === pole.re && known.pole.im === pole.im);
+    if (place) place.count += 1;
     else places.push({ pole, count: 1 });
   }
   return places;

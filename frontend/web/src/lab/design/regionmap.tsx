@@ -56,12 +56,12 @@ function pathOf(look: (typeof LOOKS)[number]): string {
 const percent = (part: number) => `${formatNumber(100 * part, 3, 1)} %`;
 
 function Picture() {
-  const found = shownRegion.value;
+  const region = shownRegion.value;
   const part = restShare.value;
   const summary =
-    found === null || part === null
+    region === null || part === null
       ? words.regionEmpty
-      : words.regionSummary(percent(part), formatNumber(found.stiffness_nm_per_rad, 3, 1));
+      : words.regionSummary(percent(part), formatNumber(region.stiffness_nm_per_rad, 3, 1));
   return (
     <svg
       class="drawing region-map"
@@ -113,7 +113,7 @@ export function RegionMap() {
   const sigma = typed ?? Number(formatInput(present ?? 0, 3));
   const limits = configuration?.limits;
   const part = restShare.value;
-  const found = shownRegion.value;
+  const region = shownRegion.value;
   return (
     <section
       class={`stack region ${isOutdated.value ? "is-outdated" : ""}`}
@@ -174,15 +174,15 @@ export function RegionMap() {
           </span>
         ))}
       </p>
-      <p class="hint">{words.regionCaption(words.slices[found?.chosen ?? chosen], STARTS)}</p>
+      <p class="hint">{words.regionCaption(words.slices[region?.chosen ?? chosen], STARTS)}</p>
       <p class="hint" role={isComputing.value ? undefined : "status"}>
-        {found === null || part === null
+        {region === null || part === null
           ? words.regionEmpty
           : words.regionFound(
               percent(part),
               outcomes.value.length,
               STARTS * STARTS,
-              words.sensing[found.encoders],
+              words.sensing[region.encoders],
               isOutdated.value,
             )}
       </p>

@@ -25,16 +25,16 @@ const magnitudeOf = ({ disturbance }: DesignResponse): Points =>
 
 const curveOf = (
   look: Curve["look"],
-  found: DesignResponse,
-  read: (found: DesignResponse) => Points,
-): Curve => ({ look, points: read(found), isDoubtful: caveatOf(found) !== null });
+  response: DesignResponse,
+  read: (response: DesignResponse) => Points,
+): Curve => ({ look, points: read(response), isDoubtful: caveatOf(response) !== null });
 
-function curvesOf(read: (found: DesignResponse) => Points): Curve[] {
+function curvesOf(read: (response: DesignResponse) => Points): Curve[] {
   const now = currentResponse.value;
-  const found = draftResponse.value;
+  const response = draftResponse.value;
   return [
     ...(now && isChanged.value ? [curveOf("present", now, read)] : []),
-    ...(found ? [curveOf("tried", found, read)] : []),
+    ...(response ? [curveOf("tried", response, read)] : []),
   ];
 }
 
@@ -42,41 +42,41 @@ function curvesOf(read: (found: DesignResponse) => Points): Curve[] {
  * Responses to the 3 kg and to a sine on the link, with the draft's poles and with those in use.
  */
 export function Responses() {
-  const found = draftResponse.value;
-  if (found === null) return <p class="hint">{text.design.asking}</p>;
+  const response = draftResponse.value;
+  if (response === null) return <p class="hint">{text.design.asking}</p>;
   const errors = curvesOf(errorOf);
   const magnitudes = curvesOf(magnitudeOf);
-  const caveat = caveatOf(found);
+  const caveat = caveatOf(response);
   const doubt = caveat?.short ?? null;
   const now = currentResponse.value;
   const addCaveat = (summary: string) => (caveat ? words.caveat(summary, caveat.short) : summary);
-  const peak = formatNumber(toDegrees(found.load.peak_error_rad), 3, 2);
+  const peak = formatNumber(toDegrees(response.load.peak_error_rad), 3, 2);
   return (
     <div class="halves wide">
       <div>
         <Curves
           title={words.loadTitle}
-          summary={addCaveat(words.loadSummary(peak, found.load.fault))}
+          summary={addCaveat(words.loadSummary(peak, response.load.fault))}
           x={TIME}
           y={ERROR}
           curves={errors}
           caveat={doubt}
         />
-        {found.load.fault && <p class="hint bad">{words.loadFault(found.load.fault)}</p>}
+        {response.load.fault && <p class="hint bad">{words.loadFault(response.load.fault)}</p>}
       </div>
       <Curves
         title={words.bodeTitle}
         summary={addCaveat(
           words.bodeSummary(
-            formatNumber(Math.max(0, ...magnitudeOf(found).map(([, value]) => value)), 3, 2),
-            found.disturbance === null,
+            formatNumber(Math.max(0, ...magnitudeOf(response).map(([, value]) => value)), 3, 2),
+            response.disturbance === null,
           ),
         )}
         x={FREQUENCY}
         y={MAGNITUDE}
         curves={magnitudes}
-        note={found.disturbance === null ? words.bodeUnstable : null}
-        caveat={found.disturbance === null ? null : doubt}
+        note={response.disturbance === null ? words.bodeUnstable : null}
+        caveat={response.disturbance === null ? null : doubt}
       />
       {caveat && <p class="hint bad wide">{caveat.summary}</p>}
       <p class="row small wide responses-legend" aria-hidden="true">

@@ -80,23 +80,23 @@ export function watchStability(): () => void {
   let lastInputsKey = "";
   const responseScheduler = createScheduler(RESPONSE_DELAY_MS, async () => {
     const now = currentResponse.peek() ?? (await requestResponse({}));
-    const found = isChanged.peek() ? await requestResponse(designRequest()) : now;
+    const response = isChanged.peek() ? await requestResponse(designRequest()) : now;
     return () => {
       currentResponse.value = now;
-      draftResponse.value = found;
+      draftResponse.value = response;
     };
   });
   const stabilityScheduler = createScheduler(STABILITY_DELAY_MS, async () => {
-    const found = await requestStability(designRequest());
+    const newStability = await requestStability(designRequest());
     return () => {
-      stability.value = found;
+      stability.value = newStability;
       isStale.value = false;
     };
   });
   const marginsScheduler = createScheduler(STABILITY_DELAY_MS, async () => {
-    const found = await requestMargins(designRequest());
+    const newMargins = await requestMargins(designRequest());
     return () => {
-      margins.value = found;
+      margins.value = newMargins;
     };
   });
   const stop = effect(() => {

@@ -11,27 +11,27 @@ const FAINT: readonly string[] = ["D", "D1", "D2"];
 const gainOf = (gain: number | null) =>
   gain === null ? words.noGain : words.gainValue(formatNumber(toDegrees(gain), 3, 4));
 
-function Lines({ found }: { found: Stability }) {
-  const { floor_rad_s_per_nm: floor } = found;
+function Lines({ result }: { result: Stability }) {
+  const { floor_rad_s_per_nm: floor } = result;
   return (
     <dl class="facts small">
       <div title={words.slowestHint}>
         <dt>{words.slowest}</dt>
-        <dd class={found.slowest_rad_per_s < 0 ? "" : "bad"}>
-          {words.rate(formatNumber(found.slowest_rad_per_s, 3, 1))}
+        <dd class={result.slowest_rad_per_s < 0 ? "" : "bad"}>
+          {words.rate(formatNumber(result.slowest_rad_per_s, 3, 1))}
         </dd>
       </div>
       <div title={words.dampingHint}>
         <dt>{words.damping}</dt>
-        <dd>{formatNumber(found.least_damping, 2, 2)}</dd>
+        <dd>{formatNumber(result.least_damping, 2, 2)}</dd>
       </div>
       <div title={words.gainHint}>
         <dt>{words.gain}</dt>
-        <dd>{gainOf(found.ramp_gain_rad_s_per_nm)}</dd>
+        <dd>{gainOf(result.ramp_gain_rad_s_per_nm)}</dd>
       </div>
       <div title={words.l1Hint}>
         <dt>{words.l1}</dt>
-        <dd>{gainOf(found.l1_gain_rad_s_per_nm)}</dd>
+        <dd>{gainOf(result.l1_gain_rad_s_per_nm)}</dd>
       </div>
       {floor !== null && (
         <div title={words.floorHint}>
@@ -39,13 +39,13 @@ function Lines({ found }: { found: Stability }) {
           <dd>{gainOf(floor)}</dd>
         </div>
       )}
-      {found.is_observed && (
+      {result.is_observed && (
         <div title={words.fastestHint}>
-          <dt>{words.fastest(words.sensing[found.encoders])}</dt>
+          <dt>{words.fastest(words.sensing[result.encoders])}</dt>
           <dd>
-            {found.fastest_observer_rad_per_s === null
+            {result.fastest_observer_rad_per_s === null
               ? words.anyObserver
-              : words.rate(formatNumber(found.fastest_observer_rad_per_s, 3, 0))}
+              : words.rate(formatNumber(result.fastest_observer_rad_per_s, 3, 0))}
           </dd>
         </div>
       )}
@@ -53,19 +53,19 @@ function Lines({ found }: { found: Stability }) {
   );
 }
 
-function MarginLines({ found }: { found: Margins }) {
-  const sensing = words.sensing[found.encoders];
-  if (!found.is_stable) return <p class="hint">{words.noMargins(sensing)}</p>;
-  const { delay_s: delay, joint_error: norm, joint_errors: errors } = found;
+function MarginLines({ result }: { result: Margins }) {
+  const sensing = words.sensing[result.encoders];
+  if (!result.is_stable) return <p class="hint">{words.noMargins(sensing)}</p>;
+  const { delay_s: delay, joint_error: norm, joint_errors: errors } = result;
   const lines: [string, string, string][] = [
-    [words.modulus, words.modulusHint, ratio(found.modulus)],
+    [words.modulus, words.modulusHint, ratio(result.modulus)],
     [
       words.delay,
       words.delayHint,
       delay === null ? words.anyDelay : words.milliseconds(formatNumber(1000 * delay, 2, 1)),
     ],
-    [words.gain1, words.gainMarginHint, gainRangeOf(found.torque1_gain)],
-    [words.gain2, words.gainMarginHint, gainRangeOf(found.torque2_gain)],
+    [words.gain1, words.gainMarginHint, gainRangeOf(result.torque1_gain)],
+    [words.gain2, words.gainMarginHint, gainRangeOf(result.torque2_gain)],
     [
       words.joint,
       words.jointHint,
@@ -82,14 +82,14 @@ function MarginLines({ found }: { found: Margins }) {
           <dd>{value}</dd>
         </div>
       ))}
-      {found.is_switching && <p class="hint">{words.switching}</p>}
+      {result.is_switching && <p class="hint">{words.switching}</p>}
     </dl>
   );
 }
 
-function Ranges({ found }: { found: Stability }) {
-  if (found.ranges.length === 0) return <p class="hint">{words.unstableAsItIs}</p>;
-  const shown = found.ranges.filter(
+function Ranges({ result }: { result: Stability }) {
+  if (result.ranges.length === 0) return <p class="hint">{words.unstableAsItIs}</p>;
+  const shown = result.ranges.filter(
     ({ symbol, low, high }) => !FAINT.includes(symbol) || low !== null || high !== null,
   );
   return (
@@ -103,11 +103,11 @@ function Ranges({ found }: { found: Stability }) {
         </tr>
       </thead>
       <tbody>
-        {shown.map((one) => (
-          <tr key={one.symbol}>
-            <th scope="row">{words.times(one.symbol)}</th>
-            <td>{rangeOf(one)}</td>
-            <td class="present">{ratio(one.present)}</td>
+        {shown.map((range) => (
+          <tr key={range.symbol}>
+            <th scope="row">{words.times(range.symbol)}</th>
+            <td>{rangeOf(range)}</td>
+            <td class="present">{ratio(range.present)}</td>
           </tr>
         ))}
       </tbody>
@@ -117,17 +117,17 @@ function Ranges({ found }: { found: Stability }) {
 
 /** The linear loop about rest: poles with the true plant, gains from ẇ, ranges and margins. */
 export function StabilityTable() {
-  const found = stability.value;
+  const result = stability.value;
   return (
     <section class={`stack ${isStale.value ? "is-stale" : ""}`} aria-label={words.title}>
       <h3>{words.title}</h3>
-      {found === null ? (
+      {result === null ? (
         <p class="hint">{text.design.asking}</p>
       ) : (
         <>
-          <Lines found={found} />
-          <Ranges found={found} />
-          {margins.value && <MarginLines found={margins.value} />}
+          <Lines result={result} />
+          <Ranges result={result} />
+          {margins.value && <MarginLines result={margins.value} />}
         </>
       )}
     </section>

@@ -38,10 +38,12 @@ interface Caveat {
 }
 
 /** Why the curves of a design are not a valid prediction, or null if they are. */
-export function caveatOf(found: Pick<DesignResponse, "largest_pole" | "encoders">): Caveat | null {
-  if (found.largest_pole < 1) return null;
-  const { short, summary } = text.stability.unstableOn[found.encoders];
-  return { short, summary: summary(found.largest_pole.toFixed(4)) };
+export function caveatOf(
+  response: Pick<DesignResponse, "largest_pole" | "encoders">,
+): Caveat | null {
+  if (response.largest_pole < 1) return null;
+  const { short, summary } = text.stability.unstableOn[response.encoders];
+  return { short, summary: summary(response.largest_pole.toFixed(4)) };
 }
 
 const ratio = (value: number) => formatNumber(value, 3, 2);
@@ -55,9 +57,9 @@ export function rangeOf({ low, high }: Pick<Stability["ranges"][number], "low" |
 }
 
 /** Factors on a torque for which the loop stays stable. */
-export function gainRangeOf(found: Margins["torque1_gain"]): string {
-  if (found === null) return text.stability.all;
-  return rangeOf({ low: found.low ?? 0, high: found.high });
+export function gainRangeOf(range: Margins["torque1_gain"]): string {
+  if (range === null) return text.stability.all;
+  return rangeOf({ low: range.low ?? 0, high: range.high });
 }
 
 /** "M −24 %, B1 +18 %", without those that round to zero. */

@@ -18,7 +18,7 @@ import { Group } from "./group";
 
 const words = text.arm;
 const JOINTS = (Object.keys(words.joints) as JointChoice[])
-  .sort((one, other) => Number(one !== "both") - Number(other !== "both"))
+  .sort((first, second) => Number(first !== "both") - Number(second !== "both"))
   .map((value) => ({ value, label: words.joints[value] }));
 
 /** The estimates of the mass at the tip, of both arms. */

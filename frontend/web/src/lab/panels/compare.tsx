@@ -51,8 +51,13 @@ export function Compare({ state }: { state: SessionState }) {
       </div>
       {isOn && (
         <ul class="stack tight" aria-label={words.list}>
-          {others.map((one) => (
-            <ComparisonRow key={one.id} state={state} comparison={one} isRecording={isRecording} />
+          {others.map((lane) => (
+            <ComparisonRow
+              key={lane.id}
+              state={state}
+              comparison={lane}
+              isRecording={isRecording}
+            />
           ))}
         </ul>
       )}

@@ -25,7 +25,7 @@ export function CustomLoad({ isShown }: { isShown: boolean }) {
   const [typed, setTyped] = useState<Record<string, number>>({});
 
   const offered = kinds.value?.loads.filter(({ form }) => form !== null) ?? [];
-  const form = offered.find((one) => one.kind === kind)?.form ?? [];
+  const form = offered.find((row) => row.kind === kind)?.form ?? [];
   const values = { ...initialValues(form), ...typed };
   const details = readForm(form, values);
   const torque_nm = CHANNELS.map(({ value }) => (value === channel ? torque : 0));
@@ -40,7 +40,7 @@ export function CustomLoad({ isShown }: { isShown: boolean }) {
     <form class="stack" onSubmit={submit}>
       <Choice
         label={text.load.customKind}
-        options={offered.map((one) => ({ value: one.kind, label: one.title }))}
+        options={offered.map((row) => ({ value: row.kind, label: row.title }))}
         value={kind}
         onChoose={setKind}
       />

@@ -58,7 +58,7 @@ function LawList({ value, onChoose }: LawListProps) {
   const id = useId();
   const usable = usableLaws.value;
   const isMany = usable.length > MAX_WITHOUT_SEARCH;
-  const found = findLaws(usable, query);
+  const matches = findLaws(usable, query);
   useEffect(() => {
     const first = list.current?.querySelector<HTMLElement>("input, [aria-current=true], button");
     first?.focus();
@@ -77,15 +77,15 @@ function LawList({ value, onChoose }: LawListProps) {
           onKeyDown={(event) => {
             if (event.key !== "Enter" || query.trim() === "") return;
             event.preventDefault(); // the button has the focus again, and the key would press it
-            const picked = pickLaw(found, query);
+            const picked = pickLaw(matches, query);
             if (picked) onChoose(picked.name);
           }}
         />
       )}
       <span class="visually-hidden" role="status">
-        {query.trim() !== "" && words.found(found.length)}
+        {query.trim() !== "" && words.found(matches.length)}
       </span>
-      {groupLaws(found).map(({ estimate, laws }) => (
+      {groupLaws(matches).map(({ estimate, laws }) => (
         <section key={estimate} aria-labelledby={isMany ? `${id}-${estimate}` : undefined}>
           {isMany && <h3 id={`${id}-${estimate}`}>{words.groups[estimate]}</h3>}
           <ul>
@@ -101,7 +101,7 @@ function LawList({ value, onChoose }: LawListProps) {
           </ul>
         </section>
       ))}
-      {found.length === 0 && <p class="hint">{words.none}</p>}
+      {matches.length === 0 && <p class="hint">{words.none}</p>}
       {brokenLaws.value.map(({ name, problem }) => (
         <p class="problem" key={name}>
           {problem}

@@ -114,7 +114,7 @@ function EffectList({ effects }: { effects: Effects }) {
   return (
     <div class="stack tight small effects">
       {[...rows]
-        .sort((one, other) => order(one) - order(other))
+        .sort((first, second) => order(first) - order(second))
         .map((effect) => (
           <EffectControl
             key={effect.name}

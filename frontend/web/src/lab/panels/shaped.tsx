@@ -47,7 +47,7 @@ const isListed = (shape: string): shape is Listed => shape === "steps" || shape 
 export const titleOf = (follows: Follows, kind: string): string =>
   isListed(kind)
     ? words.kinds[kind]
-    : (kinds.value?.[follows].find((one) => one.kind === kind)?.title ?? kind);
+    : (kinds.value?.[follows].find((row) => row.kind === kind)?.title ?? kind);
 
 const PAUSE_MS = 300;
 const repeat = (follows: Follows) => (follows === "position" ? repeatPosition : repeatStiffness);
@@ -89,7 +89,7 @@ interface ShapedProps {
 export function Shaped({ follows, held, configuration }: ShapedProps) {
   const first = firstSteps(follows, configuration);
   const described = kinds.value?.[follows].filter(({ form }) => form !== null) ?? [];
-  const shapes = ["steps", ...described.map((one) => one.kind), "series"].map((value) => ({
+  const shapes = ["steps", ...described.map((row) => row.kind), "series"].map((value) => ({
     value,
     label: titleOf(follows, value),
   }));
@@ -103,7 +103,7 @@ export function Shaped({ follows, held, configuration }: ShapedProps) {
   const [refusal, setRefusal] = useState("");
   const unit = follows === "position" ? "deg" : "N·m/rad";
   const units: Partial<Record<Input, string>> = { hold: "s", count: "" };
-  const kind = described.find((one) => one.kind === shape);
+  const kind = described.find((row) => row.kind === shape);
   const form = kind?.form ?? [];
   const values = { ...initialValues(form), ...typed };
 

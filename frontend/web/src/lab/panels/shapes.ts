@@ -55,7 +55,7 @@ const GAP = /\s*;\s*|\s*,\s+|\s+/;
 export function writeLevels({ low, high, hold, count }: Record<Input, number>): string {
   const numbers = Array.from({ length: count + 1 }, (_, number) => number);
   const timeOf = (number: number) => Number((number * hold).toPrecision(12));
-  return numbers.map((one) => `${timeOf(one)}, ${one % 2 === 0 ? low : high}`).join("\n");
+  return numbers.map((number) => `${timeOf(number)}, ${number % 2 === 0 ? low : high}`).join("\n");
 }
 
 /** The reference of a list; throws a `RangeError` that contains the invalid line. */

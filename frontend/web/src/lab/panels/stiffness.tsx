@@ -69,8 +69,8 @@ function SineFields({ reference, reach }: { reference: Sine; reach: SliderRange 
 function meanOf(reference: StiffnessReference, otherwise: number): number {
   const fields: Record<string, unknown> = reference;
   const { offset_nm_per_rad, end_nm_per_rad, stiffness_nm_per_rad } = fields;
-  const found = offset_nm_per_rad ?? end_nm_per_rad ?? stiffness_nm_per_rad;
-  const last = Array.isArray(found) ? found.at(-1) : found;
+  const level = offset_nm_per_rad ?? end_nm_per_rad ?? stiffness_nm_per_rad;
+  const last = Array.isArray(level) ? level.at(-1) : level;
   return typeof last === "number" ? last : otherwise;
 }
 

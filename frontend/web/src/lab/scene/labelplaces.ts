@@ -39,17 +39,17 @@ const GOOD_PX = 45;
 /** Labels without space nearby are tried at all points of a grid. */
 const GRID_PX = 6;
 
-const isOver = (one: Box, other: Box): boolean =>
-  one.left < other.left + other.width + GAP_PX &&
-  other.left < one.left + one.width + GAP_PX &&
-  one.top < other.top + other.height + GAP_PX &&
-  other.top < one.top + one.height + GAP_PX;
+const isOver = (box: Box, other: Box): boolean =>
+  box.left < other.left + other.width + GAP_PX &&
+  other.left < box.left + box.width + GAP_PX &&
+  box.top < other.top + other.height + GAP_PX &&
+  other.top < box.top + box.height + GAP_PX;
 
-const isInside = (one: Box, field: Box): boolean =>
-  one.left >= field.left &&
-  one.top >= field.top &&
-  one.left + one.width <= field.left + field.width &&
-  one.top + one.height <= field.top + field.height;
+const isInside = (box: Box, field: Box): boolean =>
+  box.left >= field.left &&
+  box.top >= field.top &&
+  box.left + box.width <= field.left + field.width &&
+  box.top + box.height <= field.top + field.height;
 
 const contains = ({ left, top, width, height }: Box, x: number, y: number): boolean =>
   x >= left && x <= left + width && y >= top && y <= top + height;
@@ -134,8 +134,9 @@ export class LabelPlaces {
         if (!isFree(box)) return Number.POSITIVE_INFINITY;
         return (
           costOfPlace(box, middle) +
-          visible.filter((one) => one !== label && contains(box, one.x, one.y)).length * COVER_PX +
-          placed.filter((one) => crosses(box, one) || crosses(one, box)).length * CROSSING_PX
+          visible.filter((other) => other !== label && contains(box, other.x, other.y)).length *
+            COVER_PX +
+          placed.filter((other) => crosses(box, other) || crosses(other, box)).length * CROSSING_PX
         );
       };
       const before = this.#before.get(label.key);
@@ -173,8 +174,8 @@ function findBest(ways: Iterable<Way>, judge: (way: Way) => number): Way | null 
   let best: Way | null = null;
   let least = Number.POSITIVE_INFINITY;
   for (const way of ways) {
-    const found = judge(way);
-    if (found < least) [best, least] = [way, found];
+    const cost = judge(way);
+    if (cost < least) [best, least] = [way, cost];
   }
   return best;
 }

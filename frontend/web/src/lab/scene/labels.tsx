@@ -131,7 +131,9 @@ class Sheet {
   /** The other elements over the picture. */
   #listTaken(): Box[] {
     const parent = this.sheet.parentElement as HTMLElement;
-    return [...parent.querySelectorAll("[data-over-picture]")].map((one) => this.#boxOf(one));
+    return [...parent.querySelectorAll("[data-over-picture]")].map((element) =>
+      this.#boxOf(element),
+    );
   }
 
   #write(key: string, text: string): HTMLSpanElement {
@@ -148,26 +150,31 @@ class Sheet {
   }
 
   #show(placed: readonly PlacedLabel[]): void {
-    const shown = new Map(placed.map((one) => [one.key, one]));
+    const shown = new Map(placed.map((label) => [label.key, label]));
     for (const [key, span] of this.#spans) {
-      const one = shown.get(key);
-      span.style.visibility = one ? "visible" : "hidden";
-      if (one) span.style.translate = `${one.left.toFixed(1)}px ${one.top.toFixed(1)}px`;
+      const label = shown.get(key);
+      span.style.visibility = label ? "visible" : "hidden";
+      if (label) span.style.translate = `${label.left.toFixed(1)}px ${label.top.toFixed(1)}px`;
     }
-    for (const one of placed) this.#drawLine(one);
+    for (const label of placed) this.#drawLine(label);
     for (const [key, line] of this.#lines) {
       line.style.visibility = shown.has(key) ? "visible" : "hidden";
     }
   }
 
-  #drawLine(one: PlacedLabel): void {
-    let line = this.#lines.get(one.key);
+  #drawLine(label: PlacedLabel): void {
+    let line = this.#lines.get(label.key);
     if (!line) {
       line = document.createElementNS("http://www.w3.org/2000/svg", "line");
-      this.#lines.set(one.key, this.drawing.appendChild(line));
+      this.#lines.set(label.key, this.drawing.appendChild(line));
     }
-    const end = lineEnd(one);
-    for (const [name, value] of Object.entries({ x1: one.x, y1: one.y, x2: end.x, y2: end.y })) {
+    const end = lineEnd(label);
+    for (const [name, value] of Object.entries({
+      x1: label.x,
+      y1: label.y,
+      x2: end.x,
+      y2: end.y,
+    })) {
       line.setAttribute(name, value.toFixed(1));
     }
   }

@@ -27,7 +27,7 @@ export interface SceneObject {
   isMesh?: boolean;
   geometry?: Geometry;
   material?: { transparent: boolean } | { transparent: boolean }[];
-  traverseVisible(visit: (one: SceneObject) => void): void;
+  traverseVisible(visit: (object: SceneObject) => void): void;
 }
 
 export interface SeeingCamera extends Camera {
@@ -112,8 +112,8 @@ function intersectsMesh(from: Vector, way: Vector, most: number, geometry: Geome
   return false;
 }
 
-const isSolid = ({ material }: SceneObject): boolean =>
-  ![material].flat().some((one) => one?.transparent ?? true);
+const isSolid = ({ material: materials }: SceneObject): boolean =>
+  ![materials].flat().some((material) => material?.transparent ?? true);
 
 /** Whether a solid part occludes the point. */
 export function isOccluded(camera: Camera, point: Vector, parts: SceneObject): boolean {
@@ -121,11 +121,11 @@ export function isOccluded(camera: Camera, point: Vector, parts: SceneObject): b
   const sight = minus(point, eye);
   const most = 1 - OWN_PART / Math.hypot(...sight);
   let isFound = false;
-  parts.traverseVisible((one) => {
-    if (isFound || !one.isMesh || !one.geometry || !isSolid(one)) return;
-    const inverse = one.matrixWorld.clone().invert();
+  parts.traverseVisible((object) => {
+    if (isFound || !object.isMesh || !object.geometry || !isSolid(object)) return;
+    const inverse = object.matrixWorld.clone().invert();
     const from = transform(inverse, eye);
-    isFound = intersectsMesh(from, minus(transform(inverse, point), from), most, one.geometry);
+    isFound = intersectsMesh(from, minus(transform(inverse, point), from), most, object.geometry);
   });
   return isFound;
 }

@@ -69,12 +69,12 @@ export function setCamera(name: CameraName): void {
  * changed its shape, until then takes effect now.
  */
 export function enterView(frame: HTMLIFrameElement): void {
-  const found = (frame.contentWindow as ViserWindow | null)?.__viserMutable;
-  if (!found?.camera) {
+  const loadedViser = (frame.contentWindow as ViserWindow | null)?.__viserMutable;
+  if (!loadedViser?.camera) {
     if (frame.isConnected) setTimeout(() => enterView(frame), WAIT_MS);
     return;
   }
-  viser.value = limitFrameRate(found);
+  viser.value = limitFrameRate(loadedViser);
   if (sent !== null) setCamera(sent.name);
 }
 
@@ -88,11 +88,11 @@ export function fitCamera(): void {
 }
 
 /** Limit viser to 15 frames per second with low graphics. */
-function limitFrameRate(found: Viser): Viser {
-  const draw = found.requestRender.bind(found);
+function limitFrameRate(loadedViser: Viser): Viser {
+  const draw = loadedViser.requestRender.bind(loadedViser);
   let last = 0;
   let isWaiting = false;
-  found.requestRender = () => {
+  loadedViser.requestRender = () => {
     const wait = isLow.peek() ? last + LOW_PERIOD_MS - performance.now() : 0;
     if (wait <= 0) {
       last = performance.now();
@@ -106,7 +106,7 @@ function limitFrameRate(found: Viser): Viser {
       }, wait);
     }
   };
-  return found;
+  return loadedViser;
 }
 
 function show(nodes: readonly string[], visible: boolean): void {

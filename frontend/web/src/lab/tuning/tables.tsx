@@ -43,8 +43,8 @@ const write = (value: number | null): string => (value === null ? "–" : format
 export function ResultTable({ tuning, present, best }: FoundProps) {
   const before = tuning.finals.find(({ number }) => number === present.number) ?? present;
   const rows = [
-    { name: words.before, one: before },
-    { name: words.tuned, one: best },
+    { name: words.before, result: before },
+    { name: words.tuned, result: best },
   ];
   return (
     <div class="wide">
@@ -54,14 +54,14 @@ export function ResultTable({ tuning, present, best }: FoundProps) {
         caption={tuning.finals.length > 0 ? words.onValidation : words.onTraining}
         heads={words.resultHeads}
       >
-        {rows.map(({ name, one }) => (
+        {rows.map(({ name, result }) => (
           <tr key={name}>
             <th scope="row">{name}</th>
-            <td class="strong">{formatNumber(one.cost)}</td>
-            <td>{one.trials === 0 ? words.tooNoisy : words.held(one.held, one.trials)}</td>
-            <td>{write(one.position_error_deg)}</td>
-            <td>{write(one.stiffness_error_percent)}</td>
-            <td>{write(one.torque_variation_nm_per_s)}</td>
+            <td class="strong">{formatNumber(result.cost)}</td>
+            <td>{result.trials === 0 ? words.tooNoisy : words.held(result.held, result.trials)}</td>
+            <td>{write(result.position_error_deg)}</td>
+            <td>{write(result.stiffness_error_percent)}</td>
+            <td>{write(result.torque_variation_nm_per_s)}</td>
           </tr>
         ))}
       </Table>

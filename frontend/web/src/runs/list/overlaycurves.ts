@@ -166,13 +166,13 @@ const words = text.overlay.unlike;
  * start.
  */
 function listDiffering({ differences }: RunDifference): string[] {
-  const found = differences.filter(
+  const taskDifferences = differences.filter(
     ({ group, name }) =>
       group !== CONTROLLER &&
       group !== LOADS &&
       !(group === CHANGES && CHANGES_OF_CONTROLLER.includes(name)),
   );
-  return [...new Set(found.map(({ group, name }) => (group === CHANGES ? name : group)))];
+  return [...new Set(taskDifferences.map(({ group, name }) => (group === CHANGES ? name : group)))];
 }
 
 const areSame = (keys: readonly unknown[]): boolean => new Set(keys).size <= 1;

@@ -47,7 +47,9 @@ function describeChart({ channel, curves, judged, view, hidden }: PlotProps) {
   const bands = listBands(curves, judged, channel);
   const listShown = (plot: uPlot) =>
     listAssessments(curves, judged).filter(
-      (one) => one.channel === channel && plot.series[curves.indexOf(one.curve) + 1]?.show === true,
+      (assessment) =>
+        assessment.channel === channel &&
+        plot.series[curves.indexOf(assessment.curve) + 1]?.show === true,
     );
   const tables = curves.map(
     (curve): uPlot.AlignedData => [Array.from(curve.time), curve.values[channel]],

@@ -89,20 +89,22 @@ export function listAssessments(
   assessments: readonly RunAssessment[],
 ): CurveAssessment[] {
   return assessments.flatMap(({ run, verdict }) =>
-    verdict.channels.flatMap((one) => {
-      const curve = curves.find((each) => each.run === run && each.laneId === one.lane);
-      const channel = CHANNELS.find((name) => name === one.channel);
+    verdict.channels.flatMap((channelResult) => {
+      const curve = curves.find((each) => each.run === run && each.laneId === channelResult.lane);
+      const channel = CHANNELS.find((name) => name === channelResult.channel);
       if (curve === undefined || channel === undefined) return [];
       return {
         curve,
         channel,
-        isWithin: one.held,
-        worstS: one.worst_s - curve.zeroS,
-        value: scale(one.value, channel),
-        low: scale(one.low, channel),
-        high: scale(one.high, channel),
-        outside: one.outside.map(([from, to]) => [from - curve.zeroS, to - curve.zeroS] as const),
-        outsideS: one.outside_s,
+        isWithin: channelResult.held,
+        worstS: channelResult.worst_s - curve.zeroS,
+        value: scale(channelResult.value, channel),
+        low: scale(channelResult.low, channel),
+        high: scale(channelResult.high, channel),
+        outside: channelResult.outside.map(
+          ([from, to]) => [from - curve.zeroS, to - curve.zeroS] as const,
+        ),
+        outsideS: channelResult.outside_s,
       };
     }),
   );

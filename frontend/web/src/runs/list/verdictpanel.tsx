@@ -83,7 +83,7 @@ export function VerdictPanel({ curves, judged, onJudged }: VerdictPanelProps) {
           label={words.reference}
           value={reference}
           options={runs.map(([run]) => run)}
-          name={(run) => curves.find((one) => one.run === run)?.runName ?? run}
+          name={(run) => curves.find((curve) => curve.run === run)?.runName ?? run}
           onChoose={(run) => {
             onJudged([]);
             setReference(run);

@@ -13,33 +13,33 @@ function describeCompared(
   curves: readonly OverlayCurve[],
 ): string {
   const { ticks, own_ticks: own, other_ticks: other, compared_s: seconds } = verdict;
-  const name = curves.find((one) => one.run === run)?.runName ?? run;
+  const name = curves.find((curve) => curve.run === run)?.runName ?? run;
   const message = words.compared(name, formatNumber(seconds, 4, 3));
   return ticks === own && ticks === other ? `${message}.` : `${message}; ${words.notAll}.`;
 }
 
-function Row({ one }: { one: CurveAssessment }) {
-  const { title, unit } = TITLES[one.channel];
+function Row({ assessment }: { assessment: CurveAssessment }) {
+  const { title, unit } = TITLES[assessment.channel];
   const number = (value: number | null) => formatNumber(value, 4, 6);
   return (
     <tr>
       <th scope="row">
         <span class="line joined metrics-name">
-          <Swatch look={one.curve.lineStyle} />
-          {nameCurve(one.curve)}
+          <Swatch look={assessment.curve.lineStyle} />
+          {nameCurve(assessment.curve)}
         </span>
       </th>
       <td>
         {title} <span class="unit">{unit}</span>
       </td>
-      <td class={one.isWithin ? "good" : "bad strong"}>
-        <span aria-hidden="true">{one.isWithin ? "✓" : "✗"}</span>{" "}
-        {one.isWithin ? words.held : words.left}
+      <td class={assessment.isWithin ? "good" : "bad strong"}>
+        <span aria-hidden="true">{assessment.isWithin ? "✓" : "✗"}</span>{" "}
+        {assessment.isWithin ? words.held : words.left}
       </td>
-      <td>{formatNumber(one.worstS, 4, 3)} s</td>
-      <td>{number(one.value)}</td>
-      <td>{words.range(number(one.low), number(one.high))}</td>
-      <td>{one.isWithin ? "–" : `${formatNumber(one.outsideS, 4, 3)} s`}</td>
+      <td>{formatNumber(assessment.worstS, 4, 3)} s</td>
+      <td>{number(assessment.value)}</td>
+      <td>{words.range(number(assessment.low), number(assessment.high))}</td>
+      <td>{assessment.isWithin ? "–" : `${formatNumber(assessment.outsideS, 4, 3)} s`}</td>
     </tr>
   );
 }
@@ -58,7 +58,8 @@ export function VerdictTable({ curves, judged }: VerdictTableProps) {
     <>
       <p class="small" role="status">
         <strong class={failed === 0 ? "good" : "bad"}>{message}</strong>{" "}
-        {judged.map((one) => describeCompared(one, curves)).join(" ")} {words.marks}
+        {judged.map((runAssessment) => describeCompared(runAssessment, curves)).join(" ")}{" "}
+        {words.marks}
       </p>
       <Table
         label={words.table}
@@ -74,8 +75,8 @@ export function VerdictTable({ curves, judged }: VerdictTableProps) {
           words.outside,
         ]}
       >
-        {rows.map((one) => (
-          <Row key={`${one.curve.key}.${one.channel}`} one={one} />
+        {rows.map((assessment) => (
+          <Row key={`${assessment.curve.key}.${assessment.channel}`} assessment={assessment} />
         ))}
       </Table>
     </>

@@ -61,14 +61,14 @@ function Filters() {
         label={words.person}
         value={person}
         options={["", ...people.map(({ id }) => id)]}
-        name={(one) => people.find(({ id }) => id === one)?.name ?? words.allPersons}
+        name={(personId) => people.find(({ id }) => id === personId)?.name ?? words.allPersons}
         onChoose={(chosen) => void queryAudit({ person: chosen })}
       />
       <SelectField
         label={words.kind}
         value={kind}
         options={["", ...kinds]}
-        name={(one) => (one === "" ? words.everyKind : nameKind(one))}
+        name={(option) => (option === "" ? words.everyKind : nameKind(option))}
         onChoose={(chosen) => void queryAudit({ kind: chosen })}
       />
       <label class="row">

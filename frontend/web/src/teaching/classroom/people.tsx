@@ -15,7 +15,7 @@ export function People({
   people: ClassState["people"];
   remove: (id: string) => void;
 }) {
-  const ordered = [...people].sort((one, other) => one.name.localeCompare(other.name));
+  const ordered = [...people].sort((first, second) => first.name.localeCompare(second.name));
   return (
     <Table
       label={words.here(people.length)}
@@ -28,23 +28,23 @@ export function People({
         ...(isInstructor.value ? [<span class="visually-hidden">{words.act}</span>] : []),
       ]}
     >
-      {ordered.map((one) => (
-        <tr key={one.id}>
+      {ordered.map((person) => (
+        <tr key={person.id}>
           <th scope="row">
-            {one.name} {one.id === access.value?.id && <small>({words.you})</small>}
-            <small class="block nowrap">{one.id}</small>
+            {person.name} {person.id === access.value?.id && <small>({words.you})</small>}
+            <small class="block nowrap">{person.id}</small>
           </th>
-          <td>{words.roles[one.role]}</td>
-          <td>{one.sees.map((name) => (name === SHARED ? words.shared : name)).join(", ")}</td>
+          <td>{words.roles[person.role]}</td>
+          <td>{person.sees.map((name) => (name === SHARED ? words.shared : name)).join(", ")}</td>
           {isInstructor.value && (
             <td class="number">
-              {one.role !== "instructor" && (
+              {person.role !== "instructor" && (
                 <button
                   type="button"
                   class="button is-small"
-                  aria-label={words.remove(one.name)}
+                  aria-label={words.remove(person.name)}
                   title={words.removeHint}
-                  onClick={() => remove(one.id)}
+                  onClick={() => remove(person.id)}
                 >
                   {words.removeShort}
                 </button>
@@ -71,16 +71,16 @@ export function Removed({
       <h3>{words.removed}</h3>
       <p class="hint">{words.removedHint}</p>
       <ul class="stack">
-        {removed.map((one) => (
-          <li key={one.id} class="row">
+        {removed.map((person) => (
+          <li key={person.id} class="row">
             <span class="grow">
-              {one.name} <small class="nowrap">{one.id}</small>
+              {person.name} <small class="nowrap">{person.id}</small>
             </span>
             <button
               type="button"
               class="button is-small"
-              aria-label={words.restore(one.name)}
-              onClick={() => restore(one.id)}
+              aria-label={words.restore(person.name)}
+              onClick={() => restore(person.id)}
             >
               {words.restoreShort}
             </button>
@@ -99,16 +99,16 @@ export function Waiting() {
       <h3>{words.queue}</h3>
       {waiting.length === 0 && <p class="hint">{words.queueEmpty}</p>}
       <ol class="bullets">
-        {waiting.map((one) => (
-          <li key={one.id}>
+        {waiting.map((user) => (
+          <li key={user.id}>
             <div class="row">
-              <span class="grow">{one.name}</span>
+              <span class="grow">{user.name}</span>
               {isInstructor.value && (
                 <button
                   type="button"
                   class="button is-small"
-                  aria-label={words.give(one.name)}
-                  onClick={() => void handOver(one.id)}
+                  aria-label={words.give(user.name)}
+                  onClick={() => void handOver(user.id)}
                 >
                   {words.giveShort}
                 </button>
@@ -144,24 +144,25 @@ export function Sessions({
       <h3>{words.sessions}</h3>
       {sessions.length === 0 && <p class="hint">{words.noSessions}</p>}
       <ul class="stack">
-        {sessions.map((one) => (
-          <li key={one.session} class="row">
+        {sessions.map((privateSession) => (
+          <li key={privateSession.session} class="row">
             <span class="grow">
-              {one.owner} · {text.status[one.status as "running" | "paused" | "fault"]}
-              {one.recording && ` · ${words.recording}`}
+              {privateSession.owner} ·{" "}
+              {text.status[privateSession.status as "running" | "paused" | "fault"]}
+              {privateSession.recording && ` · ${words.recording}`}
             </span>
             <a
               class="button is-small"
-              aria-label={words.openSession(one.owner)}
-              href={`?session=${encodeURIComponent(one.session)}`}
+              aria-label={words.openSession(privateSession.owner)}
+              href={`?session=${encodeURIComponent(privateSession.session)}`}
             >
               {words.openShort}
             </a>
             <button
               type="button"
               class="button is-small"
-              aria-label={words.end(one.owner)}
-              onClick={() => end(one.session)}
+              aria-label={words.end(privateSession.owner)}
+              onClick={() => end(privateSession.session)}
             >
               {words.endShort}
             </button>

@@ -21,7 +21,7 @@ export function readinessOf(bench: BenchState | null, isSwitchHeld: boolean): Re
   if (bench === null) return READY;
   const advice = adviceFor(bench, isSwitchHeld);
   const isStopped =
-    bench.loop.state === "ticking" && STOPPED_STATES.some((one) => one === bench.status);
+    bench.loop.state === "ticking" && STOPPED_STATES.some((state) => state === bench.status);
   const canRun = advice === "run";
   return {
     canConfigure: isStopped,

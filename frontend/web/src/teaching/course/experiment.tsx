@@ -77,7 +77,7 @@ export function Trial({ of, exercise, onDone }: TaskProps) {
     void follow();
   }, [state]);
   const missing = exercise.parts.find(
-    (one) => one.kind === "predict" && one.judged_by === of.name && one.answer === null,
+    (part) => part.kind === "predict" && part.judged_by === of.name && part.answer === null,
   );
   const { active, assessment } = stepRun.value;
   const isRunning = active !== null;
@@ -96,7 +96,7 @@ export function Trial({ of, exercise, onDone }: TaskProps) {
   const criteria = criteriaOf(of, bench.value);
   const isFree = of.free.length > 0;
   const predictions = exercise.parts.filter(
-    (one) => one.kind === "predict" && one.judged_by === of.name,
+    (part) => part.kind === "predict" && part.judged_by === of.name,
   );
   const runShown = assessment?.step === of.name ? assessment.run : of.run_id;
   return (
@@ -105,8 +105,8 @@ export function Trial({ of, exercise, onDone }: TaskProps) {
         <>
           <h4>{words.asked}</h4>
           <ul class="bullets small">
-            {criteria.map((one) => (
-              <li key={one}>{one}</li>
+            {criteria.map((criterion) => (
+              <li key={criterion}>{criterion}</li>
             ))}
           </ul>
         </>
@@ -153,8 +153,13 @@ export function Trial({ of, exercise, onDone }: TaskProps) {
       {!isRunning && (
         <>
           <Results of={of} results={resultsOf(of)} run={runShown} />
-          {predictions.map((one) => (
-            <Results key={one.name} of={one} results={one.results} run={of.run_id} />
+          {predictions.map((prediction) => (
+            <Results
+              key={prediction.name}
+              of={prediction}
+              results={prediction.results}
+              run={of.run_id}
+            />
           ))}
         </>
       )}

@@ -76,8 +76,8 @@ export function LearnPage() {
         <h3>{lesson.exercises}</h3>
         {exercises.value === null && problem.value === "" && <p class="hint">{lesson.loading}</p>}
         <ul class="cells" style={{ "--cell": "320px", gap: "var(--gap)" }}>
-          {exercises.value?.map((one) => (
-            <ExerciseCard key={one.name} of={one} />
+          {exercises.value?.map((exercise) => (
+            <ExerciseCard key={exercise.name} of={exercise} />
           ))}
         </ul>
       </section>

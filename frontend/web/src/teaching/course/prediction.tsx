@@ -13,14 +13,14 @@ export function Prediction({ of, exercise, onDone }: TaskProps) {
   const [isChanging, setChanging] = useState(false);
   const [draft, setDraft] = useState<number | null>(null);
   const [isSent, setSent] = useState(false);
-  const given = of.answer;
+  const savedAnswer = of.answer;
   const judge = exercise.parts.find(({ name }) => name === of.judged_by);
   const range = words.from(formatBound(of.low ?? 0), formatBound(of.high ?? 0), of.unit);
-  if (given !== null && !isChanging) {
+  if (savedAnswer !== null && !isChanging) {
     return (
       <>
         <p class="note">
-          <strong>{words.kept(String(given), of.unit)}</strong>{" "}
+          <strong>{words.kept(String(savedAnswer), of.unit)}</strong>{" "}
           {of.is_final ? words.isKept : words.keptHint}
         </p>
         {!of.is_final && (

@@ -39,23 +39,23 @@ export function Results({
     <section aria-label={`${words.results}: ${of.title}`}>
       <h4>{words.results}</h4>
       <ul class="stack small">
-        {results.map((one) => (
-          <li key={one.name} class={`note ${TONES[wordOf(one)]}`}>
+        {results.map((result) => (
+          <li key={result.name} class={`note ${TONES[wordOf(result)]}`}>
             <p>
-              <strong class="tone">{words[wordOf(one)]}</strong> <span>{one.name}</span>{" "}
+              <strong class="tone">{words[wordOf(result)]}</strong> <span>{result.name}</span>{" "}
               <small>
-                {one.points} / {one.max_points}
+                {result.points} / {result.max_points}
               </small>
             </p>
-            <p class="as-written">{one.feedback}</p>
-            {run !== null && typeof one.time_s === "number" && (
+            <p class="as-written">{result.feedback}</p>
+            {run !== null && typeof result.time_s === "number" && (
               <button
                 type="button"
                 class="button"
                 title={words.showHint}
-                onClick={() => showInPlots(run, one.time_s as number)}
+                onClick={() => showInPlots(run, result.time_s as number)}
               >
-                {words.show(one.time_s.toFixed(2))}
+                {words.show(result.time_s.toFixed(2))}
               </button>
             )}
           </li>

@@ -25,7 +25,7 @@ export function SubmissionPanel({ of, exercise, onDone }: TaskProps) {
       </>
     );
   }
-  const missing = exercise.parts.filter((one) => exercise.missing.includes(one.name));
+  const missing = exercise.parts.filter((part) => exercise.missing.includes(part.name));
   return (
     <>
       {of.law && <OwnLaw savedLaw={exercise.law} html={of.html} />}
@@ -41,13 +41,13 @@ export function SubmissionPanel({ of, exercise, onDone }: TaskProps) {
           <div class="note">
             <p>{words.missing}</p>
             <ul class="bullets">
-              {missing.map((one) => (
-                <li key={one.name}>
-                  {one.name === of.name ? (
+              {missing.map((part) => (
+                <li key={part.name}>
+                  {part.name === of.name ? (
                     words.law.tryFirst
                   ) : (
-                    <PlaceLink to={{ kind: "learn", exercise: exercise.name, step: one.name }}>
-                      {one.title}
+                    <PlaceLink to={{ kind: "learn", exercise: exercise.name, step: part.name }}>
+                      {part.title}
                     </PlaceLink>
                   )}
                 </li>
@@ -92,7 +92,7 @@ function OwnGrade({ exercise }: { exercise: string }) {
     let isGone = false;
     readOwnGrades().then(
       (all) => {
-        if (!isGone) setSubmission(all.find((one) => one.exercise === exercise) ?? null);
+        if (!isGone) setSubmission(all.find((entry) => entry.exercise === exercise) ?? null);
       },
       (error) => {
         if (!isGone) setProblem(explain(error));

@@ -12,22 +12,22 @@ import { SubmissionPanel } from "./submission";
 
 const words = text.lesson;
 
-function Steps({ found, at }: { found: Exercise; at: Step }) {
+function Steps({ shownExercise, at }: { shownExercise: Exercise; at: Step }) {
   return (
     <nav aria-label={words.steps}>
       <ol class="row lesson-steps">
-        {found.parts.map((one, index) => (
-          <li key={one.name} class={one.done ? "is-done" : ""}>
+        {shownExercise.parts.map((part, index) => (
+          <li key={part.name} class={part.done ? "is-done" : ""}>
             <PlaceLink
-              to={{ kind: "learn", exercise: found.name, step: one.name }}
+              to={{ kind: "learn", exercise: shownExercise.name, step: part.name }}
               class="button is-icon"
-              title={`${words.kinds[one.kind]}: ${one.title}`}
-              isHere={one.name === at.name}
+              title={`${words.kinds[part.kind]}: ${part.title}`}
+              isHere={part.name === at.name}
             >
-              <span aria-hidden="true">{one.done ? "✓" : index + 1}</span>
+              <span aria-hidden="true">{part.done ? "✓" : index + 1}</span>
               <span class="visually-hidden">
-                {words.kinds[one.kind]}: {one.title}
-                {one.done && `, ${words.stepDone}`}
+                {words.kinds[part.kind]}: {part.title}
+                {part.done && `, ${words.stepDone}`}
               </span>
             </PlaceLink>
           </li>
@@ -38,35 +38,35 @@ function Steps({ found, at }: { found: Exercise; at: Step }) {
 }
 
 /** If a result replaces a form, the focus moves from the form to the result. */
-function Task({ found, at }: { found: Exercise; at: Step }) {
+function Task({ shownExercise, at }: { shownExercise: Exercise; at: Step }) {
   const box = useRef<HTMLDivElement>(null);
   const onDone = () => {
     if (document.activeElement === document.body) box.current?.focus();
   };
-  const given = { of: at, exercise: found, onDone };
+  const taskProps = { of: at, exercise: shownExercise, onDone };
   return (
     <div ref={box} class="stack" tabIndex={-1} key={at.name}>
-      {at.kind === "predict" && <Prediction {...given} />}
-      {at.kind === "experiment" && <Trial {...given} />}
-      {at.kind === "explain" && <Question {...given} />}
-      {at.kind === "submit" && <SubmissionPanel {...given} />}
+      {at.kind === "predict" && <Prediction {...taskProps} />}
+      {at.kind === "experiment" && <Trial {...taskProps} />}
+      {at.kind === "explain" && <Question {...taskProps} />}
+      {at.kind === "submit" && <SubmissionPanel {...taskProps} />}
     </div>
   );
 }
 
-function Turn({ found, at }: { found: Exercise; at: Step }) {
-  const index = found.parts.findIndex(({ name }) => name === at.name);
+function Turn({ shownExercise, at }: { shownExercise: Exercise; at: Step }) {
+  const index = shownExercise.parts.findIndex(({ name }) => name === at.name);
   const link = (to: Step | undefined, word: string, look: string) =>
     to && (
-      <PlaceLink class={look} to={{ kind: "learn", exercise: found.name, step: to.name }}>
+      <PlaceLink class={look} to={{ kind: "learn", exercise: shownExercise.name, step: to.name }}>
         {word}
       </PlaceLink>
     );
   return (
     <p class="spread divided">
-      {link(found.parts[index - 1], `← ${words.previous}`, "button")}
+      {link(shownExercise.parts[index - 1], `← ${words.previous}`, "button")}
       {link(
-        found.parts[index + 1],
+        shownExercise.parts[index + 1],
         `${words.next} →`,
         at.done || at.kind === "read" ? "button is-primary" : "button",
       )}
@@ -78,45 +78,45 @@ const asLoaded = place.peek();
 
 /** An exercise at a step, next to the live lab. */
 export function Lesson({ name }: { name: string }) {
-  const found = exercise.value;
+  const shownExercise = exercise.value;
   const at = step.value;
   const heading = useRef<HTMLHeadingElement>(null);
   useEffect(() => {
     void openExercise(name);
   }, [name]);
-  const here = found?.name === name && at !== null ? at.name : "";
+  const here = shownExercise?.name === name && at !== null ? at.name : "";
   useEffect(() => {
     if (here === "") return;
     void storePlace(name, here);
     if (place.peek() !== asLoaded) heading.current?.focus();
   }, [name, here]);
   return (
-    <section class="surface stack lesson" aria-label={words.label(found?.title ?? name)}>
+    <section class="surface stack lesson" aria-label={words.label(shownExercise?.title ?? name)}>
       <p class="spread hint">
         <PlaceLink to={{ kind: "learn", exercise: "", step: "" }}>← {words.all}</PlaceLink>
-        {found && (
+        {shownExercise && (
           <span>
-            {words.exercise(found.number)} ·{" "}
-            {words.pointsAndLaw(found.max_points, found.law_points)}
+            {words.exercise(shownExercise.number)} ·{" "}
+            {words.pointsAndLaw(shownExercise.max_points, shownExercise.law_points)}
           </span>
         )}
       </p>
-      {found !== null && at !== null && found.name === name ? (
+      {shownExercise !== null && at !== null && shownExercise.name === name ? (
         <>
-          <h2>{found.title}</h2>
+          <h2>{shownExercise.title}</h2>
           <progress
-            value={found.done}
-            max={found.steps}
+            value={shownExercise.done}
+            max={shownExercise.steps}
             aria-label={words.progress}
-            title={words.done(found.done, found.steps)}
+            title={words.done(shownExercise.done, shownExercise.steps)}
           />
-          <Steps found={found} at={at} />
-          {at === found.parts[0] && (
+          <Steps shownExercise={shownExercise} at={at} />
+          {at === shownExercise.parts[0] && (
             <div class="stack">
               <p translate>
-                <strong>{words.goal}:</strong> {found.goal}
+                <strong>{words.goal}:</strong> {shownExercise.goal}
               </p>
-              <Prose html={found.html} />
+              <Prose html={shownExercise.html} />
             </div>
           )}
           <h3 class="line" ref={heading} tabIndex={-1}>
@@ -124,8 +124,8 @@ export function Lesson({ name }: { name: string }) {
             {at.max_points > 0 && <small class="rigid end">{words.points(at.max_points)}</small>}
           </h3>
           <Prose html={at.html} />
-          <Task found={found} at={at} />
-          <Turn found={found} at={at} />
+          <Task shownExercise={shownExercise} at={at} />
+          <Turn shownExercise={shownExercise} at={at} />
         </>
       ) : (
         problem.value === "" && <p class="hint">{words.loading}</p>

@@ -9,7 +9,7 @@ export const { result: grades, problem, job, open: openGrades, unfollow, cancel 
 export const selection = signal<{ person: string; exercise: string } | null>(null);
 
 export const submissionOf = (student: Student, exercise: string): Submission | undefined =>
-  student.submissions.find((one) => one.exercise === exercise);
+  student.submissions.find((submission) => submission.exercise === exercise);
 
 export const selectedSubmission = computed(() => {
   const at = selection.value;
@@ -34,11 +34,11 @@ export const ungraded = computed(() =>
 
 /** Total points of all graded exercises, null without any. */
 export function sumOf(student: Student): { points: number; maximum: number } | null {
-  const given = student.submissions.flatMap(({ grade }) => grade ?? []);
-  if (given.length === 0) return null;
+  const ownGrades = student.submissions.flatMap(({ grade }) => grade ?? []);
+  if (ownGrades.length === 0) return null;
   return {
-    points: given.reduce((sum, one) => sum + one.points, 0),
-    maximum: given.reduce((sum, one) => sum + one.max_points, 0),
+    points: ownGrades.reduce((sum, grade) => sum + grade.points, 0),
+    maximum: ownGrades.reduce((sum, grade) => sum + grade.max_points, 0),
   };
 }
 

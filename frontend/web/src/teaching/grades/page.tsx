@@ -64,9 +64,9 @@ function Table() {
         <thead>
           <tr>
             <th scope="col">{words.student}</th>
-            {columns.value.map((one) => (
-              <th key={one.name} scope="col">
-                {one.number}. {one.title}
+            {columns.value.map((exercise) => (
+              <th key={exercise.name} scope="col">
+                {exercise.number}. {exercise.title}
               </th>
             ))}
             <th scope="col">{words.sum}</th>
@@ -185,17 +185,17 @@ export function GradesPage() {
     void openGrades();
     return unfollow;
   }, []);
-  const found = grades.value;
+  const classGrades = grades.value;
   return (
     <Page title={words.title} lead={words.lead} problem={problem.value}>
-      {found?.not_isolated && (
+      {classGrades?.not_isolated && (
         <p class="surface card problem">
-          {words.notIsolated} {found.not_isolated}
+          {words.notIsolated} {classGrades.not_isolated}
         </p>
       )}
-      {found === null ? (
+      {classGrades === null ? (
         problem.value === "" && <p class="hint">{words.loading}</p>
-      ) : found.students.length === 0 ? (
+      ) : classGrades.students.length === 0 ? (
         <section class="surface card">
           <h3>{words.empty}</h3>
           <p translate>{words.emptyHint}</p>

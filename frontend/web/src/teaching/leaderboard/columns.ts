@@ -28,6 +28,6 @@ export const COLUMNS: readonly Column[] = [
 
 /** Sorted entries; equal ones by rank, as the server lists them. */
 export function sortEntries(entries: readonly BoardEntry[], key: string, isDown: boolean) {
-  const column = COLUMNS.find((one) => one.key === key) ?? (COLUMNS[0] as Column);
+  const column = COLUMNS.find(({ key: columnKey }) => columnKey === key) ?? (COLUMNS[0] as Column);
   return sortBy(entries, column.read, isDown);
 }

@@ -31,7 +31,7 @@ export const hasSubmittedEntry = computed(() => {
   const now = job.value;
   const runs = board.value?.runs ?? Number.POSITIVE_INFINITY;
   if (!isJobRunning(now) || now === null || now.total <= runs) return false;
-  return entries.value.some((one) => !one.is_installed && one.name === now.title);
+  return entries.value.some((entry) => !entry.is_installed && entry.name === now.title);
 });
 const total = computed(() => job.value?.total ?? 0);
 effect(() => {

@@ -60,25 +60,25 @@ export function LeaderboardPage() {
       </main>
     );
   }
-  const found = board.value;
-  const hasOwn = found?.entries.some((one) => !one.is_installed) ?? false;
+  const leaderboard = board.value;
+  const hasOwn = leaderboard?.entries.some((entry) => !entry.is_installed) ?? false;
   return (
     <PageWithForm
       title={words.title}
       lead={
-        found?.began == null
+        leaderboard?.began == null
           ? words.lead
-          : `${words.lead} ${words.season(formatMoment(found.began), found.suite)}`
+          : `${words.lead} ${words.season(formatMoment(leaderboard.began), leaderboard.suite)}`
       }
       problem={problem.value}
       side={<Start />}
     >
-      {found === null ? (
+      {leaderboard === null ? (
         <p class="hint">{problem.value === "" && words.loading}</p>
       ) : (
         <div class="stack">
           {!hasOwn && <Empty />}
-          {found.began === null ? <Published /> : <BoardTable />}
+          {leaderboard.began === null ? <Published /> : <BoardTable />}
         </div>
       )}
     </PageWithForm>

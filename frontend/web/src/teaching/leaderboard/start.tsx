@@ -114,7 +114,7 @@ function Form() {
       </div>
       <p role="status" hidden={existingEntryKey.value === ""}>
         {existingEntryKey.value !== "" &&
-          words.known(entries.value.find((one) => one.key === existingEntryKey.value)?.name)}
+          words.known(entries.value.find((entry) => entry.key === existingEntryKey.value)?.name)}
       </p>
     </form>
   );
