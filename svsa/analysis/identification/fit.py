@@ -38,8 +38,8 @@ class Fit(NamedTuple):
     """The result of a fit.
 
     Attributes:
-        values: `Parameters`, shape (16,).
-        deviations: Standard deviations, shape (16,); a ten-thousandth of the value is added, for
+        values: `Parameters`, shape (17,).
+        deviations: Standard deviations, shape (17,); a ten-thousandth of the value is added, for
             torques between samples.
         residual: rms residuals of θ1, θ2, φ, rad, shape (3,).
         used: Number of segments used.

@@ -18,6 +18,7 @@ _SMOOTH_ROWS = 11
 _SHAPE = {"static_ratio": 1.2, "stribeck": 0.1, "creep1": 0.02, "creep2": 0.02} | {
     "delay1": 0.0,
     "delay2": 0.0,
+    "lever_error": 0.0,
 }
 
 
@@ -41,11 +42,15 @@ def guess_noise(evidence: Evidence) -> np.ndarray:
 
 
 def guess_parameters(evidence: Evidence) -> np.ndarray:
-    """Estimate the vector of `Parameters`; unobservable ones have typical values."""
+    """Estimate the vector of `Parameters`; unobservable ones have typical values.
+
+    If the stiffness is known, K is near the one that is assumed: the lever ratio follows from it.
+    """
     period = evidence.setting.period
     width = _WINDOW_S / period
     spring = np.empty((len(evidence.angles), 3))
-    compute_unit_torques(evidence.setting, evidence.angles, spring)
+    K = evidence.configuration.actuator.rotational_stiffness_nm_per_rad
+    compute_unit_torques(evidence.setting, K, evidence.angles, spring)
     theta1, theta2, phi = evidence.angles.T
     q = theta1 + phi
     rows = _find_inner_rows(evidence, round(4 * width))

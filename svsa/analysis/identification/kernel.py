@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from svsa.actuators.dynamics import Actuator, compute_internal_torque
+from svsa.actuators.lever import compute_lever_ratio_for_stiffness
 from svsa.actuators.signals import State, Torque
 from svsa.numerics.compilation import compiled
 from svsa.numerics.fields import replace_field
@@ -27,9 +28,12 @@ OUTPUTS = 3
 class Setting(NamedTuple):
     """Known quantities.
 
-    gamma, mu0 and reaction are those of `Actuator`.
+    gamma and reaction are those of `Actuator`.
 
     Attributes:
+        mu0: Lever ratio at θ2 = 0, 1; if `sigma` is known, the part of it that K does not change.
+        sigma: Known stiffness at φ = 0, N·m/rad, whose lever ratio follows from K; 0 if the lever
+            ratio itself is known.
         period: T, s.
         effects: Effects of the plant, with the lag of the current loop; friction and gravity moment
             of the link are estimated.
@@ -38,6 +42,7 @@ class Setting(NamedTuple):
 
     gamma: float
     mu0: float
+    sigma: float
     reaction: int
     period: float
     effects: EffectConstants
@@ -63,6 +68,7 @@ class Parameters(NamedTuple):
         delay1: Delay from a recorded torque to that of motor 1, s. Drives that receive commands one
             after the other have different delays.
         delay2: The same for motor 2, s.
+        lever_error: Error of the known lever ratio, 1.
     """
 
     M: float
@@ -81,15 +87,24 @@ class Parameters(NamedTuple):
     gravity_moment: float
     delay1: float
     delay2: float
+    lever_error: float
 
 
 @compiled
 def build_parameters(p: np.ndarray) -> Parameters:
-    """The vector of unknowns (16,) as `Parameters`."""
+    """The vector of unknowns (17,) as `Parameters`."""
     return Parameters(
         p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7], p[8], p[9], p[10], p[11], p[12], p[13],
-        p[14], p[15],
+        p[14], p[15], p[16],
     )  # fmt: skip
+
+
+@compiled
+def compute_mu0(setting: Setting, K: float) -> float:
+    """The lever ratio μ at θ2 = 0 of a spring with K in N·m/rad (Eq 3 at φ = 0)."""
+    if setting.sigma > 0.0:
+        return setting.mu0 + compute_lever_ratio_for_stiffness(setting.sigma, K)
+    return setting.mu0
 
 
 @compiled
@@ -135,16 +150,15 @@ def simulate(
 
     Args:
         setting: Known quantities.
-        p: `Parameters`, shape (16,).
+        p: `Parameters`, shape (17,).
         start: State at the first sample, shape (6,).
         torques: `Torques` of the whole record.
         first: First sample.
         outputs: Shape (samples, 3), rad, written.
     """
     c = build_parameters(p)
-    actuator = Actuator(
-        c.M, c.B1, c.B2, c.D, c.D1, c.D2, c.K, setting.gamma, setting.mu0, setting.reaction
-    )
+    mu0 = compute_mu0(setting, c.K) + c.lever_error
+    actuator = Actuator(c.M, c.B1, c.B2, c.D, c.D1, c.D2, c.K, setting.gamma, mu0, setting.reaction)
     friction = FrictionConstants(
         c.coulomb1, c.coulomb2, c.coulomb1 * c.static_ratio, c.coulomb2 * c.static_ratio,
         c.stribeck, c.creep1, c.creep2,
@@ -179,13 +193,13 @@ def differentiate(
 
     Args:
         setting: Known quantities.
-        p: `Parameters`, shape (16,).
+        p: `Parameters`, shape (17,).
         start: State at the first sample, shape (6,).
-        steps: Steps of the quotients, shape (16 + 6,).
+        steps: Steps of the quotients, shape (17 + 6,).
         torques: `Torques` of the whole record.
         first: First sample.
         outputs: Shape (samples, 3), written.
-        slopes: Shape (16 + 6, samples, 3), written.
+        slopes: Shape (17 + 6, samples, 3), written.
     """
     unknowns = p.shape[0]
     for i in range(-1, steps.shape[0]):
@@ -203,13 +217,19 @@ def differentiate(
 
 
 @compiled
-def compute_unit_torques(setting: Setting, angles: np.ndarray, torques: np.ndarray) -> None:
-    """Compute the torques of a spring with K = 1 N·m/rad: `torques` (rows, 3) is written, as
-    `InternalTorque`.
+def compute_unit_torques(
+    setting: Setting, K: float, angles: np.ndarray, torques: np.ndarray
+) -> None:
+    """Compute the torques of a spring divided by its K.
 
-    `angles` are θ1, θ2, φ, rad, shape (rows, 3).
+    Args:
+        setting: Known quantities.
+        K: K, N·m/rad, from which the lever ratio follows if the stiffness is known.
+        angles: θ1, θ2, φ, rad, shape (rows, 3).
+        torques: Shape (rows, 3), 1, written: `InternalTorque`.
     """
-    unit = Actuator(1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 1.0, setting.gamma, setting.mu0, setting.reaction)
+    mu0 = compute_mu0(setting, K)
+    unit = Actuator(1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 1.0, setting.gamma, mu0, setting.reaction)
     for k in range(angles.shape[0]):
         theta1, theta2, phi = angles[k, 0], angles[k, 1], angles[k, 2]
         F = compute_internal_torque(unit, State(theta1 + phi, 0.0, theta1, 0.0, theta2, 0.0))

@@ -6,13 +6,14 @@ from typing import TYPE_CHECKING, NoReturn
 
 import numpy as np
 
-from svsa.actuators.lever import compute_lever_ratio, compute_lever_ratio_for_stiffness
+from svsa.actuators.lever import compute_lever_ratio_slope
 from svsa.analysis.identification.fit import Progress
 from svsa.analysis.identification.identify import (
     Identification,
     identify_evidence,
 )
 from svsa.analysis.identification.identify import identify as identify_record
+from svsa.analysis.identification.initial_guess import guess_noise
 from svsa.analysis.identification.record import (
     MIN_SEGMENTS,
     SEGMENT_S,
@@ -20,6 +21,7 @@ from svsa.analysis.identification.record import (
     IdentificationError,
     build_setting,
     build_torques,
+    check_actuator,
     find_segments,
 )
 from svsa.errors import ParameterError, Violation
@@ -57,10 +59,10 @@ def identify(
 
     Args:
         source: Id or folder of a recorded run, a simulated result, or a CSV file (`.csv`).
-        parameters: For a CSV file: parameter file or `Design` with the known radius and γ;
-            default: those of the paper.
-        stiffness_nm_per_rad: For a CSV file: stiffness without deflection in its first row,
-            N·m/rad.
+        parameters: For a CSV file: parameter file or `Design` with the known radius and γ, and a
+            spring within a factor of two of the true one; default: those of the paper.
+        stiffness_nm_per_rad: For a CSV file: known stiffness without deflection in its first row,
+            N·m/rad. The lever ratio follows from it and from the estimated spring.
         progress: Called with the finished share, 0 to 1.
 
     Returns:
@@ -99,13 +101,12 @@ def read_csv_evidence(
             file=str(path),
         )
     configuration = build_experiment("4a", parameters, {}, identify)
+    check_actuator(configuration, "The parameter file")
     actuator = configuration.actuator
     angles = np.stack([_read_angle(table, name, path) for name in ANGLES], axis=1)
-    ratio = compute_lever_ratio_for_stiffness(
-        stiffness_nm_per_rad, actuator.rotational_stiffness_nm_per_rad
-    )
-    mu0 = ratio - compute_lever_ratio(float(angles[0, 1]), 0.0, actuator.spiral_reduction)
-    setting, lag = build_setting(configuration, mu0, period)
+    slope = compute_lever_ratio_slope(actuator.spiral_reduction)
+    first = -slope * float(angles[0, 1])
+    setting, lag = build_setting(configuration, first, period, stiffness_nm_per_rad)
     torques = build_torques(np.stack([table[name] for name in TORQUES], axis=1), True, lag, period)
     length = round(SEGMENT_S / period)
     segments = find_segments(np.ones(len(time), bool), length)
@@ -114,7 +115,8 @@ def read_csv_evidence(
             f"{path} has {len(time) * period:g} s: at least {MIN_SEGMENTS * SEGMENT_S:g} s are"
             " needed."
         )
-    return Evidence(configuration, setting, angles, torques, segments, length, 0)
+    evidence = Evidence(configuration, setting, angles, torques, segments, length, 0)
+    return evidence._replace(lever_deviation=slope * float(guess_noise(evidence)[1]))
 
 
 def _read_table(path: Path) -> dict[str, np.ndarray]:

@@ -24,18 +24,21 @@ _INFINITE = np.inf
 # off, a fit of the shape would compensate for their errors.
 SHAPE = ("static_ratio", "stribeck", "creep1", "creep2")
 _HELD = 1e-6
+_EXACT = 1e-9
+"""Standard deviation of a lever ratio that is known, 1."""
 
 # Prior knowledge: the standard deviation of each parameter about its first guess. The widths are so
 # large that they matter only where the record contains no information.
 _WIDTHS = Parameters(
     M=0.1, B1=0.1, B2=0.1, D=0.1, D1=0.1, D2=0.1, K=100.0, coulomb1=1.0, coulomb2=1.0,
     static_ratio=0.5, stribeck=0.1, creep1=0.02, creep2=0.02, gravity_moment=5.0, delay1=0.002,
-    delay2=0.002,
+    delay2=0.002, lever_error=0.01,
 )  # fmt: skip
 _MIN = Parameters(
     M=1e-6, B1=1e-6, B2=1e-6, D=0.0, D1=0.0, D2=0.0, K=1e-3, coulomb1=0.0, coulomb2=0.0,
     static_ratio=1.0, stribeck=1e-3, creep1=1e-3, creep2=1e-3,
     gravity_moment=-_INFINITE, delay1=-0.01, delay2=-0.01,
+    lever_error=-_INFINITE,
 )  # fmt: skip
 _MAX = Parameters(
     *(_INFINITE,) * UNKNOWNS,
@@ -49,7 +52,7 @@ class Point(NamedTuple):
     """A point of the search.
 
     Attributes:
-        values: `Parameters`, shape (16,).
+        values: `Parameters`, shape (17,).
         starts: State at the first row of each segment, shape (segments, 6).
     """
 
@@ -96,11 +99,12 @@ class Problem:
     ) -> None:
         self._evidence, self._segments, self._deviations = evidence, segments, deviations
         self._centre = centre
-        self._widths = np.array(_WIDTHS._replace(**dict.fromkeys(held, _HELD)))
+        widths = _WIDTHS._replace(lever_error=max(evidence.lever_deviation, _EXACT))
+        self._widths = np.array(widths._replace(**dict.fromkeys(held, _HELD)))
 
     @property
     def prior_weight(self) -> np.ndarray:
-        """(16,) the information that the prior adds to each parameter."""
+        """(17,) the information that the prior adds to each parameter."""
         return self._widths**-2.0
 
     def compute_cost(self, squares: np.ndarray, values: np.ndarray) -> float:
@@ -160,7 +164,7 @@ class Problem:
         )
 
     def sum_up(self, reduced: Reduced, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Sum information (16, 16) and score (16,) of the parameters: all segments and the
+        """Sum information (17, 17) and score (17,) of the parameters: all segments and the
         prior.
         """
         weight = self.prior_weight

@@ -11,6 +11,7 @@ import numpy as np
 
 from svsa.actuators.dynamics import build_actuator
 from svsa.actuators.lever import compute_lever_ratio
+from svsa.actuators.parameters import SVSA, get_mechanism_name
 from svsa.analysis.identification.kernel import UNLOADED, Setting, Torques, measure
 from svsa.errors import SvsaError
 from svsa.numerics.exponential import exp
@@ -50,6 +51,7 @@ class Evidence(NamedTuple):
         segments: First rows of the segments that are used.
         length: Number of rows in each segment.
         loaded: Number of rows under a load.
+        lever_deviation: Standard deviation of the known lever ratio, 1.
     """
 
     configuration: Configuration
@@ -59,6 +61,7 @@ class Evidence(NamedTuple):
     segments: np.ndarray
     length: int
     loaded: int
+    lever_deviation: float = 0.0
 
 
 def read_evidence(record: Record) -> Evidence:
@@ -69,6 +72,7 @@ def read_evidence(record: Record) -> Evidence:
     """
     configuration, commands = read_origin(record)
     configuration = _find_plant(record, configuration, commands)
+    check_actuator(configuration, f"Run {record.header.run_id}")
     rows = record.read_channels(_CHANNELS)[:, 0]
     is_measured = bool(np.isnan(record.read_channels([_TRUTH], 0, 1)).all())
     missed = np.zeros(len(rows), bool)
@@ -106,18 +110,31 @@ def read_evidence(record: Record) -> Evidence:
     return Evidence(configuration, setting, angles, torques, segments, length, int(np.sum(loaded)))
 
 
+def check_actuator(configuration: Configuration, source: str) -> None:
+    """Reject another actuator than the SVSA; the message begins with the source of the data.
+
+    Raises:
+        IdentificationError: If the actuator is another one.
+    """
+    name = get_mechanism_name(configuration.actuator)
+    if name != SVSA:
+        raise IdentificationError(
+            f"{source} has the actuator {name}: only the spring of the SVSA (Eq 2) is identified."
+        )
+
+
 def build_setting(
-    configuration: Configuration, mu0: float, period_s: float
+    configuration: Configuration, mu0: float, period_s: float, sigma: float = 0.0
 ) -> tuple[Setting, float]:
     """Return the known quantities of the plant, and the time constant of its current loop, s.
 
-    `mu0` is the lever ratio at θ2 = 0.
+    `mu0` and `sigma` are those of `Setting`.
     """
     known = build_actuator(configuration.actuator, mu0)
     lag = configuration.effects.current_lag
     constant = lag.time_constant_s if lag else 0.0
     effects = NO_EFFECTS._replace(current_lag=constant)
-    setting = Setting(known.gamma, known.mu0, known.reaction, period_s, effects, UNLOADED)
+    setting = Setting(known.gamma, mu0, sigma, known.reaction, period_s, effects, UNLOADED)
     return setting, constant
 
 

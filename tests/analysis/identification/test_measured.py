@@ -10,7 +10,7 @@ from svsa.actuators.signals import CHANNEL_INDEX
 from svsa.analysis.identification.record import IdentificationError
 from svsa.errors import ParameterError
 
-from .excited_run import BENCH, build_configuration, play
+from .excited_run import BENCH, DESIGN, build_configuration, play
 
 COLUMNS = ("time_s", "motor1_position_rad", "motor2_position_rad", "deflection_rad")
 TORQUES = ("torque1_nm", "torque2_nm")
@@ -34,14 +34,70 @@ def samples():
 
 
 @pytest.mark.exhaustive
-def test_csv_file_gives_the_parameters_of_the_actuator(samples, tmp_path):
+@pytest.mark.parametrize("share", [0.6, 1.0, 1.7])
+def test_csv_file_gives_the_parameters_from_any_assumed_spring(samples, tmp_path, share):
     names = ("time_s", "motor1_position_rad", "motor2_position_rad", "deflection_deg", *TORQUES)
     path = write(tmp_path / "mine.csv", samples, names, deflection_deg=180.0 / math.pi)
-    found = svsa.identify(path, stiffness_nm_per_rad=30.0)
-    true = svsa.load_prototype().actuator
+    true = DESIGN.actuator
+    assumed = true.changed(spring_stiffness_n_per_m=share * true.spring_stiffness_n_per_m)
+    parameters = DESIGN.changed(actuator=assumed)
+    found = svsa.identify(path, stiffness_nm_per_rad=30.0, parameters=parameters)
     for name in ("link_inertia_kg_m2", "motor1_inertia_kg_m2", "spring_stiffness_n_per_m"):
         assert found.estimates[name].value == pytest.approx(getattr(true, name), rel=0.02), name
+    spring = found.estimates["spring_stiffness_n_per_m"]
+    assert spring.low < true.spring_stiffness_n_per_m < spring.high
+    assert spring.relative_width < 0.01
     assert found.run_id == str(path)
+
+
+def move(actuator, sigma, ticks, seed):
+    """Time, θ1, θ2, φ, u1, u2 (ticks, 6) of the printed equations, with torques held for 1 ms."""
+    a, step = actuator, 0.001
+    K = a.spring_stiffness_n_per_m * a.radius_m**2
+    r, gear = math.sqrt(sigma / K), 2.0 * math.pi * a.spiral_reduction
+    rates, phases = (0.3, 0.7, 1.3, 2.1, 3.7, 5.3), np.random.default_rng(seed).uniform(0, 6.28, 6)
+
+    def differentiate(x, u1, u2):
+        c, s, mu = math.cos(x[0] - x[2]), math.sin(x[0] - x[2]), r / (1.0 + r) + x[4] / gear
+        elastic = K * mu**2 * s * c / (1.0 - mu * c) ** 2
+        reaction = K * mu * ((1.0 - mu) ** -2 - (c / (1.0 - mu * c)) ** 2) / gear
+        return np.array([
+            x[1], (-elastic - a.link_damping_nms_per_rad * x[1]) / a.link_inertia_kg_m2,
+            x[3], (u1 + elastic - a.motor1_damping_nms_per_rad * x[3]) / a.motor1_inertia_kg_m2,
+            x[5], (u2 - reaction - a.motor2_damping_nms_per_rad * x[5]) / a.motor2_inertia_kg_m2,
+        ])  # fmt: skip
+
+    rows, x = np.empty((ticks, 6)), np.zeros(6)
+    for tick in range(ticks):
+        t = step * tick
+        r1, r2 = 0.4 * math.sin(2.5 * t), 0.25 * math.sin(3.1 * t) + 0.1 * math.sin(10.7 * t)
+        u1 = 0.45 * np.sin(2.0 * math.pi * t * np.array(rates) + phases).sum() + 3.0 * (r1 - x[2])
+        u = u1 - 0.02 * x[3], 4.0 * (r2 + 0.05 * math.sin(19.5 * t) - x[4]) - 0.1 * x[5]
+        rows[tick] = t, x[2], x[4], x[0] - x[2], *u
+        k1 = differentiate(x, *u)
+        k2 = differentiate(x + 0.5 * step * k1, *u)
+        k3 = differentiate(x + 0.5 * step * k2, *u)
+        x = x + step / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + differentiate(x + step * k3, *u))
+    return rows
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("noise_rad", [2e-4, 0.0])
+def test_spring_of_other_equations_is_in_its_interval(tmp_path, noise_rad):
+    """With the encoders' counts, or noise instead; the assumed spring is 1882 N/m."""
+    actuator = DESIGN.actuator.changed(spring_stiffness_n_per_m=1700.0)
+    rows = move(actuator, 25.0, 20_000, seed=3)
+    if noise_rad:
+        rows[:, 1:4] += np.random.default_rng(3).normal(0.0, noise_rad, (len(rows), 3))
+    else:
+        counts = np.array(COUNTS) / (2.0 * math.pi)
+        rows[:, 1:4] = np.round(rows[:, 1:4] * counts) / counts
+    path = tmp_path / "own.csv"
+    head = ",".join((*COLUMNS, *TORQUES))
+    np.savetxt(path, rows, delimiter=",", header=head, comments="", fmt="%.9g")
+    spring = svsa.identify(path, stiffness_nm_per_rad=25.0).estimates["spring_stiffness_n_per_m"]
+    assert spring.low < 1700.0 < spring.high
+    assert spring.relative_width < 0.01
 
 
 def test_invalid_file_error_names_column_row_and_bound(samples, tmp_path):
@@ -79,3 +135,10 @@ def test_invalid_file_error_names_column_row_and_bound(samples, tmp_path):
 def test_simulated_result_is_identified_without_a_record(samples):
     with pytest.raises(IdentificationError, match="at least 6 s"):
         svsa.identify(svsa.simulate("4a", duration_s=1.0))
+
+
+@pytest.mark.parametrize("actuator", ["sea", "awas2"])
+def test_other_actuator_is_rejected_by_its_name(actuator):
+    run = svsa.simulate("4a", actuator=actuator, loads=[], duration_s=0.01)
+    with pytest.raises(IdentificationError, match=f"has the actuator {actuator}: only"):
+        svsa.identify(run)
