@@ -14,9 +14,9 @@ from rich.padding import Padding
 from rich.text import Text
 
 from svsa.inputs.extras import require_extra
+from svsa.inputs.terminal import INTERRUPTED
 
 _COLOURS = {"ok": "green", "warn": "yellow", "fail": "bold red"}
-_INTERRUPTED = 130
 _MOVE_WARNING = (
     "--move turns first the principal motor, then the stiffness motor, by short pulses of current"
     " (a few degrees, forth and back). Hand on the emergency stop, all persons clear of the link,"
@@ -65,7 +65,7 @@ def bench_check(
                     console.print(Padding(advice, (0, 0, 0, 6)))
     except (KeyboardInterrupt, typer.Abort):
         console.print("Interrupted: the drives that were used are at zero current and reset.")
-        raise typer.Exit(_INTERRUPTED) from None
+        raise typer.Exit(INTERRUPTED) from None
     if failed:
         raise typer.Exit(1)
 

@@ -1,9 +1,11 @@
-"""Output on terminals whose encoding lacks Greek letters and mathematical signs."""
+"""Exit code of an interruption; output on terminals that lack Greek letters and signs."""
 
 import codecs
 import sys
 import unicodedata
 
+INTERRUPTED = 130
+"""Exit code of a command that was ended by Ctrl-C."""
 HANDLER = "svsa.spell"
 _SIGNS = {
     **{"−": "-", "–": "-", "—": "-", "‑": "-", "·": "*", "×": "x", "±": "+-", "∫": "integral "},

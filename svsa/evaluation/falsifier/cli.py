@@ -12,6 +12,7 @@ from rich.table import Table
 from svsa.control.installed import PAPERS_LAW, get_title, list_law_names
 from svsa.evaluation.progress_bar import Report, show_progress
 from svsa.inputs.output_file import check_picture, check_writable
+from svsa.inputs.terminal import INTERRUPTED
 
 if TYPE_CHECKING:
     from svsa.evaluation.falsifier.adversary import Adversary
@@ -23,7 +24,6 @@ falsify = typer.Typer(
     no_args_is_help=True, help="Search for the worst load of a law, and simplify it."
 )
 _messages = Console(stderr=True)
-INTERRUPTED = 130
 _Adversary = Annotated[
     str, typer.Argument(metavar="ADVERSARY", help="A file (.toml), or a built-in adversary.")
 ]

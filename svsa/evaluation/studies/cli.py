@@ -11,6 +11,7 @@ from rich.table import Table
 from svsa.errors import ParameterError, Violation
 from svsa.evaluation.progress_bar import Report, show_progress
 from svsa.inputs.extras import require_extra
+from svsa.inputs.terminal import INTERRUPTED
 
 if TYPE_CHECKING:
     from svsa.evaluation.studies.stored import StoredStudy
@@ -20,7 +21,6 @@ study = typer.Typer(
     no_args_is_help=True, help="Run many perturbed runs of each law, and show their statistics."
 )
 _messages = Console(stderr=True)
-INTERRUPTED = 130
 
 
 @study.command("run")

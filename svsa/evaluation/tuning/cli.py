@@ -11,9 +11,9 @@ from rich.table import Table
 from svsa.control.installed import check_installed, get_title, list_law_names
 from svsa.errors import ParameterError, Violation
 from svsa.evaluation.progress_bar import show_progress
+from svsa.inputs.terminal import INTERRUPTED
 
 _messages = Console(stderr=True)
-INTERRUPTED = 130
 RANKING_BUDGET, BUDGET = 2000, 128
 
 if TYPE_CHECKING:
