@@ -2,10 +2,9 @@
  * Numbers as users type them. The decimal sign is a point or a comma, whatever the language of the
  * browser is. What could mean two numbers is rejected, never guessed.
  */
-import { text } from "./text/en";
+import { t } from "./text/t";
 import { formatInput } from "./units";
 
-const words = text.numbers;
 const MINUS = /^[\u2010-\u2013\u2212\ufe63\uff0d]/;
 /** Arabic-Indic, Persian and full-width digits: the last four bits are the value. */
 const OTHER_DIGITS = /[\u0660-\u0669\u06f0-\u06f9\uff10-\uff19]/g;
@@ -41,13 +40,12 @@ const withUnit = (value: number, { unit = "" }: Demand): string =>
 
 function describeBounds(demand: Demand): string {
   const { unit = "", min, max } = demand;
-  const { refusal } = text;
   if (min !== undefined && max !== undefined) {
-    return refusal.between(write(min), withUnit(max, demand));
+    return t("refusal.between", { least: write(min), most: withUnit(max, demand) });
   }
-  if (min !== undefined) return refusal.atLeast(withUnit(min, demand));
-  if (max !== undefined) return refusal.atMost(withUnit(max, demand));
-  return unit && words.inUnit(unit);
+  if (min !== undefined) return t("refusal.atLeast", { bound: withUnit(min, demand) });
+  if (max !== undefined) return t("refusal.atMost", { bound: withUnit(max, demand) });
+  return unit && t("numbers.inUnit", { unit });
 }
 
 /** A typed number without bounds, or the reason why it is none. */
@@ -57,19 +55,25 @@ export function parseNumber(typed: string): Reading {
     .replace(MINUS, "-")
     .replace(OTHER_DIGITS, (digit) => String(digit.charCodeAt(0) & 15))
     .replace(/[\u066b\uff0e\uff0c\uff0b]/g, (sign) => OTHER_SIGNS[sign] as string);
-  if (plain === "") return { reason: words.missing };
+  if (plain === "") return { reason: t("numbers.missing") };
   if (AMBIGUOUS.test(plain)) {
     return {
-      reason: words.ambiguous(trimmed, plain.replace(",", ""), plain.replace(",", ".")),
+      reason: t("numbers.ambiguous", {
+        typed: trimmed,
+        whole: plain.replace(",", ""),
+        decimal: plain.replace(",", "."),
+      }),
     };
   }
   if (!NUMBER.test(plain)) {
-    return { reason: (GROUPED.test(plain) ? words.grouped : words.noNumber)(trimmed) };
+    return {
+      reason: t(GROUPED.test(plain) ? "numbers.grouped" : "numbers.noNumber", { typed: trimmed }),
+    };
   }
   const value = Number(plain.replace(",", "."));
-  if (!Number.isFinite(value)) return { reason: words.tooLarge(trimmed) };
+  if (!Number.isFinite(value)) return { reason: t("numbers.tooLarge", { typed: trimmed }) };
   if (value === 0 && /[1-9]/.test(plain.replace(/e.*/i, ""))) {
-    return { reason: words.tooSmall(trimmed) };
+    return { reason: t("numbers.tooSmall", { typed: trimmed }) };
   }
   return { value };
 }
@@ -77,17 +81,28 @@ export function parseNumber(typed: string): Reading {
 /** A typed number that a field accepts, or the reason with unit and bounds. */
 export function readNumber(typed: string, demand: Demand): Reading {
   const reading = parseNumber(typed);
-  const { label = words.number, min = -Infinity, max = Infinity, isInteger = false } = demand;
+  const { label = t("numbers.number"), min = -Infinity, max = Infinity, isInteger } = demand;
   const bounds = describeBounds(demand);
-  if ("reason" in reading) {
-    return { reason: words.rejected(label, reading.reason, isInteger, bounds) };
-  }
+  const reject = (reason: string): Reading => ({
+    reason: t(isInteger ? "numbers.rejectedInteger" : "numbers.rejected", {
+      name: label,
+      reason,
+      bounds: bounds && ` ${bounds}`,
+    }),
+  });
+  if ("reason" in reading) return reject(reading.reason);
   const { value } = reading;
   if (value < min || value > max) {
-    return { reason: text.refusal.outOfRange(label, withUnit(value, demand), bounds) };
+    return {
+      reason: t("refusal.outOfRange", {
+        name: label,
+        value: withUnit(value, demand),
+        bound: bounds,
+      }),
+    };
   }
   if (!isInteger || Number.isSafeInteger(value)) return reading;
-  return { reason: words.rejected(label, words.noInteger(write(value)), isInteger, bounds) };
+  return reject(t("numbers.noInteger", { value: write(value) }));
 }
 
 /**

@@ -10,7 +10,7 @@ import type { BenchState } from "../core/api/types";
 import { perform } from "../core/state/actions";
 import { mayCommand } from "../core/state/control";
 import { isLive } from "../core/state/session";
-import { text } from "../core/text/en";
+import { t } from "../core/text/t";
 import { isSwitchHeld } from "./hold";
 import { type AllowedCommands, allowedCommands, isLoopLost } from "./status";
 
@@ -22,16 +22,16 @@ interface Action {
 }
 
 const ACTIONS: readonly Action[] = [
-  { name: "arm", label: text.bench.arm, hint: text.bench.armHint, send: armBench },
-  { name: "run", label: text.bench.run, hint: text.bench.runHint, send: start },
-  { name: "stop", label: text.bench.stop, hint: text.bench.stopHint, send: pause },
-  { name: "clear", label: text.bench.clear, hint: text.bench.clearHint, send: clearBench },
+  { name: "arm", label: t("bench.arm"), hint: t("bench.armHint"), send: armBench },
+  { name: "run", label: t("bench.run"), hint: t("bench.runHint"), send: start },
+  { name: "stop", label: t("bench.stop"), hint: t("bench.stopHint"), send: pause },
+  { name: "clear", label: t("bench.clear"), hint: t("bench.clearHint"), send: clearBench },
 ];
 
 const RESTART: Action = {
   name: "restart",
-  label: text.bench.restart,
-  hint: text.bench.restartHint,
+  label: t("bench.restart"),
+  hint: t("bench.restartHint"),
   send: restartBench,
 };
 
@@ -48,7 +48,7 @@ const actionsOn = (bench: BenchState): readonly Action[] =>
 export function BenchButtons({ bench }: { bench: BenchState }) {
   const allowed = allowedCommands(bench, isSwitchHeld.value);
   return (
-    <fieldset class="line bench-buttons" disabled={!isLive.value} aria-label={text.bench.heading}>
+    <fieldset class="line bench-buttons" disabled={!isLive.value} aria-label={t("bench.heading")}>
       {actionsOn(bench).map(({ name, label, hint, send }) => {
         const isAllowed = allowed[name] && (name === "stop" || mayCommand.value);
         return (

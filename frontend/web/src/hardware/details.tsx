@@ -1,6 +1,6 @@
 import type { BenchState } from "../core/api/types";
 import { isLive } from "../core/state/session";
-import { text } from "../core/text/en";
+import { t } from "../core/text/t";
 import { formatLapse, formatNumber } from "../core/units";
 import { Heat } from "./heat";
 import { Homing } from "./homing";
@@ -17,9 +17,9 @@ const QUIET: readonly BenchState["status"][] = ["off", "reset", "config", "mode"
 
 function Problems({ problems }: { problems: readonly string[] }) {
   return (
-    <section class="surface small bench-card is-problems" aria-label={text.bench.problems}>
+    <section class="surface small bench-card is-problems" aria-label={t("bench.problems")}>
       <h2 class="bad">
-        <span aria-hidden="true">▲</span> {text.bench.problems}
+        <span aria-hidden="true">▲</span> {t("bench.problems")}
       </h2>
       <ul class="bullets">
         {problems.map((problem) => (
@@ -31,34 +31,34 @@ function Problems({ problems }: { problems: readonly string[] }) {
 }
 
 function Age({ seconds, level }: { seconds: number; level: Freshness }) {
-  const { drives } = text.bench;
-  if (!isLive.value) return <td class="breaks">{drives.notKnown}</td>;
-  if (level === "silent" || level === "unheard") return <td class="breaks">{drives[level]}</td>;
+  if (!isLive.value) return <td class="breaks">{t("bench.drives.notKnown")}</td>;
+  if (level === "silent" || level === "unheard")
+    return <td class="breaks">{t(`bench.drives.${level}`)}</td>;
   return (
     <td class={level === "fresh" ? "good" : "bad"}>
-      <span aria-hidden="true">{SIGNS[level]}</span> {drives.ago(formatLapse(seconds))}
+      <span aria-hidden="true">{SIGNS[level]}</span>{" "}
+      {t("bench.drives.ago", { lapse: formatLapse(seconds) })}
       {level === "fresh" ? (
-        <span class="visually-hidden"> {drives.levels.fresh}</span>
+        <span class="visually-hidden"> {t("bench.drives.levels.fresh")}</span>
       ) : (
-        <strong> {drives.levels[level]}</strong>
+        <strong> {t(`bench.drives.levels.${level}`)}</strong>
       )}
     </td>
   );
 }
 
 function Drives({ bench }: { bench: BenchState }) {
-  const { drives } = text.bench;
   const { ages_s: ages, current_a: currents, supervised } = bench;
   return (
-    <section class="surface small bench-card is-drives" aria-label={drives.heading}>
-      <h2>{drives.heading}</h2>
+    <section class="surface small bench-card is-drives" aria-label={t("bench.drives.heading")}>
+      <h2>{t("bench.drives.heading")}</h2>
       <table>
         <thead>
           <tr>
-            <th scope="col">{drives.source}</th>
-            <th scope="col">{drives.current}</th>
-            <th scope="col">{text.bench.heat.column}</th>
-            <th scope="col">{drives.age}</th>
+            <th scope="col">{t("bench.drives.source")}</th>
+            <th scope="col">{t("bench.drives.current")}</th>
+            <th scope="col">{t("bench.heat.column")}</th>
+            <th scope="col">{t("bench.drives.age")}</th>
           </tr>
         </thead>
         <tbody>
@@ -68,12 +68,12 @@ function Drives({ bench }: { bench: BenchState }) {
             const isSending = SENDING_SIGNS.includes(level);
             const current = isSending ? currents?.[index] : undefined;
             return (
-              <tr key={drives.names[index]}>
-                <th scope="row">{drives.names[index]}</th>
+              <tr key={t("bench.drives.names", { returnObjects: true })[index]}>
+                <th scope="row">{t("bench.drives.names", { returnObjects: true })[index]}</th>
                 <td>
                   {current === undefined
-                    ? drives.none
-                    : drives.amperes(formatNumber(current, 3, 2))}
+                    ? t("bench.drives.none")
+                    : t("bench.drives.amperes", { value: formatNumber(current, 3, 2) })}
                 </td>
                 <Heat motor={bench.motors?.[index]} />
                 <Age seconds={age} level={level} />
@@ -85,7 +85,7 @@ function Drives({ bench }: { bench: BenchState }) {
       {isLive.value && !isStarting(bench) && (
         <p class={supervised ? "good" : "bad"}>
           <span aria-hidden="true">{supervised ? "✓" : "▲"}</span>{" "}
-          {supervised ? drives.supervised : drives.unsupervised}
+          {supervised ? t("bench.drives.supervised") : t("bench.drives.unsupervised")}
         </p>
       )}
     </section>
@@ -95,21 +95,21 @@ function Drives({ bench }: { bench: BenchState }) {
 function Calibration({ bench }: { bench: BenchState }) {
   const { calibrated_by: by, calibrated_on: on } = bench;
   return (
-    <section class="surface small bench-card is-calibration" aria-label={text.bench.calibration}>
-      <h2>{text.bench.calibration}</h2>
+    <section class="surface small bench-card is-calibration" aria-label={t("bench.calibration")}>
+      <h2>{t("bench.calibration")}</h2>
       {on === null ? (
         <p class="bad">
-          <span aria-hidden="true">▲</span> {text.bench.uncalibrated}
+          <span aria-hidden="true">▲</span> {t("bench.uncalibrated")}
         </p>
       ) : (
         <p>
           <time dateTime={on}>{on.slice(0, 16).replace("T", " ")}</time>
-          {by !== null && ` ${text.bench.calibrated(by)}`}
+          {by !== null && ` ${t("bench.calibrated", { by })}`}
         </p>
       )}
       <h3>{bench.name}</h3>
       <p class="hint">
-        {text.bench.interface}: {bench.interface}
+        {t("bench.interface")}: {bench.interface}
       </p>
     </section>
   );

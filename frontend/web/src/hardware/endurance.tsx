@@ -2,11 +2,10 @@ import { useEffect, useState } from "preact/hooks";
 import { type Endurance, predictHeat } from "../core/api/design";
 import type { Load } from "../core/api/types";
 import { isLive, session } from "../core/state/session";
-import { text } from "../core/text/en";
+import { t } from "../core/text/t";
 import { formatNumber } from "../core/units";
 import { isLoopLost } from "./status";
 
-const { endurance: words } = text.bench;
 const PAUSE_MS = 400;
 
 /** Inputs of the prediction: the load, the settings, the other loads. */
@@ -40,12 +39,18 @@ export function EnduranceNote({ load }: { load: Load | null }) {
       {answer !== null && (
         <details>
           <summary>
-            {words.warning(words.motor[answer.motor], words.seconds(answer.seconds))}
+            {t("bench.endurance.warning", {
+              motor: t(`bench.endurance.motor.${answer.motor}`),
+              seconds:
+                answer.seconds < 1
+                  ? t("bench.endurance.instant")
+                  : t("bench.endurance.seconds", { seconds: Math.round(answer.seconds) }),
+            })}
           </summary>
-          {words.why(
-            formatNumber(answer.torque_nm, 3, 2),
-            formatNumber(answer.lasting_torque_nm, 3, 2),
-          )}
+          {t("bench.endurance.why", {
+            torque: formatNumber(answer.torque_nm, 3, 2),
+            lasting: formatNumber(answer.lasting_torque_nm, 3, 2),
+          })}
         </details>
       )}
     </div>

@@ -1,29 +1,27 @@
 import type { BenchState } from "../core/api/types";
 import { isLive } from "../core/state/session";
-import { text } from "../core/text/en";
+import { t } from "../core/text/t";
 import { formatNumber } from "../core/units";
 
-const { heat: words } = text.bench;
 type Motor = NonNullable<BenchState["motors"]>[number];
 
-const sharesOf = ({ heat, allowed_torque_nm: allowed, lasting_torque_nm: lasting }: Motor) =>
-  [
-    String(Math.round(100 * heat)),
-    formatNumber(allowed, 3, 2),
-    formatNumber(lasting, 3, 2),
-  ] as const;
+const describeHeat = ({ heat, allowed_torque_nm: allowed, lasting_torque_nm: lasting }: Motor) => ({
+  percent: String(Math.round(100 * heat)),
+  allowed: formatNumber(allowed, 3, 2),
+  lasting: formatNumber(lasting, 3, 2),
+});
 
 /** Temperature of a motor, and whether its torque is limited; a cell of the table of sources. */
 export function Heat({ motor }: { motor: Motor | undefined }) {
-  if (motor === undefined || !isLive.value) return <td>{text.bench.drives.none}</td>;
-  const [share, allowed] = sharesOf(motor);
+  if (motor === undefined || !isLive.value) return <td>{t("bench.drives.none")}</td>;
+  const { percent, allowed } = describeHeat(motor);
   return (
-    <td class={motor.limited_by_heat ? "bad" : ""} title={words.hint}>
-      {words.share(share)}
+    <td class={motor.limited_by_heat ? "bad" : ""} title={t("bench.heat.hint")}>
+      {t("bench.heat.share", { percent })}
       {motor.limited_by_heat && (
         <strong class="block breaks">
           {" "}
-          <span aria-hidden="true">▲</span> {words.heldTo(allowed)}
+          <span aria-hidden="true">▲</span> {t("bench.heat.heldTo", { torque: allowed })}
         </strong>
       )}
     </td>
@@ -40,9 +38,11 @@ export function HeatWarning({ bench: { motors } }: { bench: BenchState }) {
         <p key={index}>
           <span aria-hidden="true">▲</span>{" "}
           <strong role="alert">
-            {words.warningTitle(text.bench.drives.names[index] as string)}
+            {t("bench.heat.warningTitle", {
+              motor: t("bench.drives.names", { returnObjects: true })[index] as string,
+            })}
           </strong>{" "}
-          <span class="heat-why">{words.warning(...sharesOf(motor))}</span>
+          <span class="heat-why">{t("bench.heat.warning", describeHeat(motor))}</span>
         </p>
       ))}
     </div>

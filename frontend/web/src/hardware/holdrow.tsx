@@ -2,7 +2,7 @@ import { useId } from "preact/hooks";
 import type { BenchState } from "../core/api/types";
 import { mayCommand, otherHolder } from "../core/state/control";
 import { isLive } from "../core/state/session";
-import { text } from "../core/text/en";
+import { t } from "../core/text/t";
 import {
   holdEnd,
   holdMessage,
@@ -12,7 +12,6 @@ import {
   type SwitchInput,
 } from "./hold";
 
-const words = text.hold;
 const isSwitchKey = (event: KeyboardEvent): boolean => event.key === " " || event.key === "Enter";
 
 function press(event: PointerEvent & { currentTarget: HTMLElement }): void {
@@ -37,16 +36,18 @@ export function HoldRow({ bench: { status } }: { bench: BenchState }) {
   const held = isSwitchHeld.value;
   const other = otherHolder.value;
   const label =
-    other === null ? words.words[holdMessage(status, held, holdEnd.value)] : words.other(other);
+    other === null
+      ? t(`hold.words.${holdMessage(status, held, holdEnd.value)}`)
+      : t("hold.other", { name: other });
   return (
-    <section class="bar is-foot hold" aria-label={words.heading}>
+    <section class="bar is-foot hold" aria-label={t("hold.heading")}>
       <button
         type="button"
         class="rigid strong hold-button"
         aria-pressed={held}
         aria-describedby={id}
         aria-keyshortcuts="d"
-        title={words.keyHint}
+        title={t("hold.keyHint")}
         disabled={!mayCommand.value}
         onPointerDown={press}
         onPointerUp={releaseOn("pointer")}
@@ -59,13 +60,14 @@ export function HoldRow({ bench: { status } }: { bench: BenchState }) {
         }}
         onBlur={releaseOn("button")}
       >
-        {words.button} <kbd>{words.key}</kbd>
+        {t("hold.button")} <kbd>{t("hold.key")}</kbd>
       </button>
       <p id={id} role="status">
         <strong class={held ? "good" : "bad"}>
-          <span aria-hidden="true">{held ? "●" : "○"}</span> {held ? words.held : words.notHeld}
+          <span aria-hidden="true">{held ? "●" : "○"}</span>{" "}
+          {held ? t("hold.held") : t("hold.notHeld")}
         </strong>{" "}
-        {isLive.value ? label : words.unheard}
+        {isLive.value ? label : t("hold.unheard")}
       </p>
     </section>
   );

@@ -4,11 +4,10 @@ import type { Axis, BenchState } from "../core/api/types";
 import { perform } from "../core/state/actions";
 import { mayCommand } from "../core/state/control";
 import { personName, setPersonName } from "../core/state/preferences";
-import { text } from "../core/text/en";
+import { t } from "../core/text/t";
 import { Problem } from "../core/widgets/form";
 import { allowedCommands } from "./status";
 
-const { homing: words } = text.bench;
 const AXES: readonly Axis[] = ["link", "motor1", "motor2"];
 
 function Axes({ bench: { homing } }: { bench: BenchState }) {
@@ -23,9 +22,10 @@ function Axes({ bench: { homing } }: { bench: BenchState }) {
             class={isDone ? "good" : isNext ? "strong" : ""}
             aria-current={isNext ? "step" : undefined}
           >
-            <span aria-hidden="true">{isDone ? "✓" : isNext ? "▸" : "○"}</span> {words.axis[axis]}
-            {isDone && <span class="visually-hidden"> {text.bench.done}</span>}
-            {isNext && <small> {words.here}</small>}
+            <span aria-hidden="true">{isDone ? "✓" : isNext ? "▸" : "○"}</span>{" "}
+            {t(`bench.homing.axis.${axis}`)}
+            {isDone && <span class="visually-hidden"> {t("bench.done")}</span>}
+            {isNext && <small> {t("bench.homing.here")}</small>}
           </li>
         );
       })}
@@ -41,7 +41,7 @@ function Confirmation({ axis, isAllowed }: { axis: Axis; isAllowed: boolean }) {
   };
   return (
     <form class="pair homing-form" onSubmit={submit}>
-      <label for={id}>{words.by}</label>
+      <label for={id}>{t("bench.homing.by")}</label>
       <input
         id={id}
         type="text"
@@ -56,9 +56,9 @@ function Confirmation({ axis, isAllowed }: { axis: Axis; isAllowed: boolean }) {
         class={`button wide ${isAllowed ? "is-primary" : ""}`}
         disabled={!isAllowed || personName.value.trim() === ""}
       >
-        {words.confirm[axis]}
+        {t(`bench.homing.confirm.${axis}`)}
       </button>
-      {!isAllowed && <p class="hint wide">{words.notNow}</p>}
+      {!isAllowed && <p class="hint wide">{t("bench.homing.notNow")}</p>}
     </form>
   );
 }
@@ -67,11 +67,11 @@ function Confirmation({ axis, isAllowed }: { axis: Axis; isAllowed: boolean }) {
 export function Homing({ bench }: { bench: BenchState }) {
   const { next_step: next, instruction } = bench.homing;
   return (
-    <section class="surface small bench-card" aria-label={words.heading}>
-      <h2>{words.heading}</h2>
+    <section class="surface small bench-card" aria-label={t("bench.homing.heading")}>
+      <h2>{t("bench.homing.heading")}</h2>
       <Axes bench={bench} />
       <p class="instruction" role="status">
-        {next === null ? words.allDone : instruction}
+        {next === null ? t("bench.homing.allDone") : instruction}
       </p>
       {next !== null && (
         <Confirmation axis={next} isAllowed={allowedCommands(bench).home && mayCommand.value} />

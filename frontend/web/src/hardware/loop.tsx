@@ -1,10 +1,9 @@
 import type { LoopState } from "../core/api/types";
 import { isLive } from "../core/state/session";
-import { text } from "../core/text/en";
+import { t } from "../core/text/t";
 import { formatLapse } from "../core/units";
 import { barsOf, decadesIn } from "./status";
 
-const { loop: words } = text.bench;
 const WIDTH = 240;
 const HEIGHT = 64;
 const SIGNS = { ticking: "✓", starting: "◌", silent: "▲", gone: "▲", not_opened: "▲" } as const;
@@ -24,11 +23,11 @@ function Lateness({ loop }: { loop: LoopState }) {
   const step = WIDTH / Math.max(1, bars.length);
   const decades = decadesIn(counts);
   const lines = Array.from({ length: Math.floor(decades) }, (_, power) => (power + 0.3) / decades);
-  const label = words.histogram(
-    formatLapse(loop.lateness_p50_s),
-    formatLapse(loop.lateness_p99_s),
-    formatLapse(loop.lateness_worst_s),
-  );
+  const label = t("bench.loop.histogram", {
+    half: formatLapse(loop.lateness_p50_s),
+    most: formatLapse(loop.lateness_p99_s),
+    worst: formatLapse(loop.lateness_worst_s),
+  });
   const shownEvery = Math.ceil(edges.length / 5);
   return (
     <figure class="drawing lateness">
@@ -46,8 +45,8 @@ function Lateness({ loop }: { loop: LoopState }) {
           >
             <title>
               {edgeS === null
-                ? words.above(count(ticks))
-                : words.upTo(formatLapse(edgeS), count(ticks))}
+                ? t("bench.loop.above", { ticks: count(ticks) })
+                : t("bench.loop.upTo", { edge: formatLapse(edgeS), ticks: count(ticks) })}
             </title>
           </rect>
         ))}
@@ -66,7 +65,7 @@ function Lateness({ loop }: { loop: LoopState }) {
             ),
         )}
       </svg>
-      <figcaption class="hint">{words.counts}</figcaption>
+      <figcaption class="hint">{t("bench.loop.counts")}</figcaption>
     </figure>
   );
 }
@@ -80,7 +79,7 @@ function RestartInstructions({
   if (state !== "silent" && state !== "gone") return null;
   return (
     <p class={by === null ? "bad" : ""}>
-      {by === null ? words.notStopped : words.stoppedBy[by]}
+      {by === null ? t("bench.loop.notStopped") : t(`bench.loop.stoppedBy.${by}`)}
       {unreachable !== null && ` ${unreachable}`}
     </p>
   );
@@ -88,34 +87,39 @@ function RestartInstructions({
 
 /** Timing of the loop's process, and its real-time privileges. */
 export function Loop({ loop }: { loop: LoopState }) {
-  const { quantiles } = words;
-  const lapse = (seconds: number) => (loop.ticks === 0 ? words.noneYet : formatLapse(seconds));
+  const lapse = (seconds: number) =>
+    loop.ticks === 0 ? t("bench.loop.noneYet") : formatLapse(seconds);
   const rows = [
-    [quantiles.half, lapse(loop.lateness_p50_s)],
-    [quantiles.most, lapse(loop.lateness_p99_s)],
-    [quantiles.nearlyAll, lapse(loop.lateness_p999_s)],
-    [quantiles.worst, lapse(loop.lateness_worst_s)],
-    [words.cost, lapse(loop.cost_p99_s)],
-    [words.skipped, words.of(count(loop.skipped_ticks), count(loop.ticks))],
+    [t("bench.loop.quantiles.half"), lapse(loop.lateness_p50_s)],
+    [t("bench.loop.quantiles.most"), lapse(loop.lateness_p99_s)],
+    [t("bench.loop.quantiles.nearlyAll"), lapse(loop.lateness_p999_s)],
+    [t("bench.loop.quantiles.worst"), lapse(loop.lateness_worst_s)],
+    [t("bench.loop.cost"), lapse(loop.cost_p99_s)],
+    [
+      t("bench.loop.skipped"),
+      t("bench.loop.of", { skipped: count(loop.skipped_ticks), ticks: count(loop.ticks) }),
+    ],
   ] as const;
   return (
-    <section class="surface small bench-card is-loop" aria-label={words.heading}>
+    <section class="surface small bench-card is-loop" aria-label={t("bench.loop.heading")}>
       <h2>
-        {words.heading}{" "}
+        {t("bench.loop.heading")}{" "}
         {isLive.value ? (
           <small class={LEVELS[loop.state]}>
-            <span aria-hidden="true">{SIGNS[loop.state]}</span> {words.states[loop.state]}
-            {loop.alive && `, ${text.status.rate(loop.rate_hz)}`}
-            {loop.silent_s !== null && ` ${words.since(formatLapse(loop.silent_s))}`}
+            <span aria-hidden="true">{SIGNS[loop.state]}</span>{" "}
+            {t(`bench.loop.states.${loop.state}`)}
+            {loop.alive && `, ${t("status.rate", { hertz: Number(loop.rate_hz.toFixed(1)) })}`}
+            {loop.silent_s !== null &&
+              ` ${t("bench.loop.since", { lapse: formatLapse(loop.silent_s) })}`}
           </small>
         ) : (
-          <small>{text.bench.drives.notKnown}</small>
+          <small>{t("bench.drives.notKnown")}</small>
         )}
       </h2>
       {isLive.value && <RestartInstructions loop={loop} />}
       <div class="cells" style={{ "--cell": "150px" }}>
         <Lateness loop={loop} />
-        <dl class="facts" aria-label={words.lateness}>
+        <dl class="facts" aria-label={t("bench.loop.lateness")}>
           {rows.map(([name, value]) => (
             <div key={name}>
               <dt>{name}</dt>
@@ -125,7 +129,7 @@ export function Loop({ loop }: { loop: LoopState }) {
         </dl>
       </div>
       {loop.notes.length > 0 && (
-        <ul class="bullets hint bench-notes" aria-label={words.notes}>
+        <ul class="bullets hint bench-notes" aria-label={t("bench.loop.notes")}>
           {loop.notes.map((note) => (
             <li key={note}>{note}</li>
           ))}

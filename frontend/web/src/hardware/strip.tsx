@@ -1,7 +1,7 @@
 import { useId, useState } from "preact/hooks";
 import type { BenchState } from "../core/api/types";
 import { isLive, plantKind } from "../core/state/session";
-import { text } from "../core/text/en";
+import { t } from "../core/text/t";
 import { Problem } from "../core/widgets/form";
 import { BenchButtons } from "./buttons";
 import { BenchDetails } from "./details";
@@ -13,7 +13,7 @@ import { adviceFor, isStarting, needsDetails, STAGES, stagePosition } from "./st
 /** OFF → RUN as one line; the state is shown by icon and text, not by color alone. */
 function Progress({ status }: { status: BenchState["status"] | null }) {
   return (
-    <ol class={`stages is-${status ?? "unknown"}`} aria-label={text.bench.stages}>
+    <ol class={`stages is-${status ?? "unknown"}`} aria-label={t("bench.stages")}>
       {STAGES.map((stage) => {
         const place = stagePosition(stage, status);
         return (
@@ -23,8 +23,8 @@ function Progress({ status }: { status: BenchState["status"] | null }) {
             aria-current={place === "here" ? "step" : undefined}
           >
             <span class="tiny stage-sign" aria-hidden="true" />
-            {text.bench.stage[stage]}
-            {place === "done" && <span class="visually-hidden"> {text.bench.done}</span>}
+            {t(`bench.stage.${stage}`)}
+            {place === "done" && <span class="visually-hidden"> {t("bench.done")}</span>}
           </li>
         );
       })}
@@ -39,26 +39,29 @@ export function BenchStrip({ bench }: { bench: BenchState }) {
   const [chosen, choose] = useState<{ isNeeded: boolean; isOpen: boolean } | null>(null);
   const isOpen = chosen?.isNeeded === isNeeded ? chosen.isOpen : isNeeded;
   const kind = plantKind.value ?? "real";
-  const status = isStarting(bench) ? text.bench.starting : text.bench.status[bench.status];
-  const advice = text.bench.advice[adviceFor(bench, isSwitchHeld.value)];
+  const status = isStarting(bench) ? t("bench.starting") : t(`bench.status.${bench.status}`);
+  const advice = t(`bench.advice.${adviceFor(bench, isSwitchHeld.value)}`);
   return (
-    <section class={`bench is-${kind}`} aria-label={text.bench.heading}>
+    <section class={`bench is-${kind}`} aria-label={t("bench.heading")}>
       <div class="line bench-strip">
         <p class="bench-mark" title={`${bench.name}, ${bench.interface}`}>
-          <strong>{text.mark[kind].name}</strong>
-          <small>{text.mark[kind].means}</small>
+          <strong>{t(`mark.${kind}.name`)}</strong>
+          <small>{t(`mark.${kind}.means`)}</small>
         </p>
         <Progress status={isLive.value && !isStarting(bench) ? bench.status : null} />
         <p class="small bench-advice" role="status">
-          <strong>{isLive.value ? status : text.bench.unknown}</strong>
-          <span>{isLive.value ? advice : text.bench.lastHeard(status)}</span>
+          <strong>{isLive.value ? status : t("bench.unknown")}</strong>
+          <span>{isLive.value ? advice : t("bench.lastHeard", { state: status })}</span>
           {isLive.value && bench.loop.step !== null && (
             <span aria-live="off">
               {" "}
-              {text.bench.startingBy(bench.loop.step, bench.loop.starting_s ?? 0)}
+              {t("bench.startingBy", {
+                step: bench.loop.step,
+                seconds: Math.floor(bench.loop.starting_s ?? 0),
+              })}
             </span>
           )}
-          {bench.operator_required && !isStarting(bench) && <span> {text.bench.watch}</span>}
+          {bench.operator_required && !isStarting(bench) && <span> {t("bench.watch")}</span>}
         </p>
         <BenchButtons bench={bench} />
         <button
@@ -68,7 +71,7 @@ export function BenchStrip({ bench }: { bench: BenchState }) {
           aria-controls={id}
           onClick={() => choose({ isNeeded, isOpen: !isOpen })}
         >
-          {text.bench.details}
+          {t("bench.details")}
           <span aria-hidden="true">{isOpen ? "▴" : "▾"}</span>
         </button>
       </div>

@@ -1,7 +1,7 @@
 import type { SessionState } from "../core/api/types";
 import { AllMetrics } from "../core/plots/allmetrics";
 import { lineStyleOfLane } from "../core/plots/linestyles";
-import { metricsText as words } from "../core/text/metrics";
+import { t } from "../core/text/t";
 import { Popup } from "../core/widgets/popup";
 import { isDisturbed } from "../runs/list/measured";
 import { sinceOf } from "./window";
@@ -13,9 +13,9 @@ export function AllMetricsButton({ state: { lanes, window } }: { state: SessionS
     <Popup
       class="quiet small"
       popupClass="metrics-popup"
-      button={words.all}
-      name={words.all}
-      title={words.allHint}
+      button={t("metrics.all")}
+      name={t("metrics.all")}
+      title={t("metrics.allHint")}
     >
       {() => (
         <AllMetrics

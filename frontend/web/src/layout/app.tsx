@@ -3,7 +3,7 @@ import { Plots } from "../core/plots/plots";
 import { isArm } from "../core/state/arm";
 import { loginCount } from "../core/state/control";
 import { phase, session } from "../core/state/session";
-import { text } from "../core/text/en";
+import { t } from "../core/text/t";
 import { BenchStrip } from "../hardware/strip";
 import { TipPlane } from "../lab/arm/plane";
 import { DesignPanel } from "../lab/design/panel";
@@ -40,7 +40,7 @@ function Views({ state, isBasic }: { state: SessionState; isBasic: boolean }) {
   return (
     <div class="arm-views">
       {hasWebGl && <View isBasic={isBasic} />}
-      <TipPlane state={state} {...(hasWebGl ? {} : { note: text.arm.noWebGl })} />
+      <TipPlane state={state} {...(hasWebGl ? {} : { note: t("arm.noWebGl") })} />
     </div>
   );
 }
@@ -61,7 +61,7 @@ function Here() {
   ) : at.kind === "learn" && at.exercise === "" ? (
     <LearnPage />
   ) : state === null ? (
-    <main class="muted waiting-page">{phase.value !== "ended" && text.connection.waiting}</main>
+    <main class="muted waiting-page">{phase.value !== "ended" && t("connection.waiting")}</main>
   ) : (
     <main class={at.kind === "learn" ? "lab has-lesson" : isBasic.value ? "lab is-basic" : "lab"}>
       <Views state={state} isBasic={isBasic.value} />
@@ -89,11 +89,11 @@ export function App() {
       {isLabShown(at) && state !== null && (
         <>
           <a class="skip" href="#plots">
-            {text.skip}
+            {t("skip")}
           </a>
           {(at.kind !== "learn" || hasFreeSettings.value) && (
             <a class="skip" href="#controls">
-              {text.skipToControls}
+              {t("skipToControls")}
             </a>
           )}
         </>

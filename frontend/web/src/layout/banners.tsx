@@ -2,7 +2,7 @@ import { reset, stopRecording } from "../core/api/client";
 import { commandStatus } from "../core/api/outcome";
 import { perform } from "../core/state/actions";
 import { isLost, isNewInstance, phase, session } from "../core/state/session";
-import { text } from "../core/text/en";
+import { t } from "../core/text/t";
 import { Banner } from "../core/widgets/banner";
 import { Problem } from "../core/widgets/form";
 import { ControlBanner } from "../lab/lease/banner";
@@ -13,15 +13,14 @@ import { ExerciseBanner } from "../teaching/course/experiment";
 
 /** For a command whose answer was lost: outcome unknown, or executed. */
 function CommandStatus({ now }: { now: NonNullable<typeof commandStatus.value> }) {
-  const words = text.connection;
   const isPending = now === "asking";
   return (
     <Banner
       look={isPending ? "is-lost" : "is-news"}
       role="alert"
       sign={isPending ? "" : "✓"}
-      title={isPending ? words.askingTitle : words.carriedOutTitle}
-      words={isPending ? words.askingText : words.carriedOutText}
+      title={isPending ? t("connection.askingTitle") : t("connection.carriedOutTitle")}
+      words={isPending ? t("connection.askingText") : t("connection.carriedOutText")}
     />
   );
 }
@@ -32,8 +31,8 @@ function NewInstance() {
     isNewInstance.value = false;
   };
   return (
-    <Banner look="is-news" title={text.connection.anotherTitle} words={text.connection.anotherText}>
-      <button type="button" class="quiet" aria-label={text.runs.dismiss} onClick={close}>
+    <Banner look="is-news" title={t("connection.anotherTitle")} words={t("connection.anotherText")}>
+      <button type="button" class="quiet" aria-label={t("runs.dismiss")} onClick={close}>
         ✕
       </button>
     </Banner>
@@ -54,8 +53,8 @@ export function Banners() {
           look="is-lost"
           role="alert"
           sign=""
-          title={isBlocked ? text.connection.blockedTitle : text.connection.lostTitle}
-          words={isBlocked ? text.connection.blockedText : text.connection.lostText}
+          title={isBlocked ? t("connection.blockedTitle") : t("connection.lostTitle")}
+          words={isBlocked ? t("connection.blockedText") : t("connection.lostText")}
         />
       )}
       {isNewInstance.value && !isLost.value && <NewInstance />}
@@ -65,7 +64,7 @@ export function Banners() {
             ▲
           </span>
           <div class="grow">
-            <strong>{text.fault.title(fault.time_s)}</strong> {fault.message}
+            <strong>{t("fault.title", { time: fault.time_s.toFixed(2) })}</strong> {fault.message}
             <FaultAdvice fault={fault} />
           </div>
           <button
@@ -74,7 +73,7 @@ export function Banners() {
             disabled={isLost.value}
             onClick={() => void perform("session", reset)}
           >
-            {text.fault.reset}
+            {t("fault.reset")}
           </button>
         </div>
       )}
@@ -83,7 +82,7 @@ export function Banners() {
           look="is-fault"
           role="alert"
           sign="▲"
-          title={text.recording.failed}
+          title={t("recording.failed")}
           words={recording.message}
         >
           <button
@@ -92,7 +91,7 @@ export function Banners() {
             disabled={isLost.value}
             onClick={() => void perform("session", stopRecording)}
           >
-            {text.recording.close}
+            {t("recording.close")}
           </button>
         </Banner>
       )}

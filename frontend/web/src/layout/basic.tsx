@@ -2,10 +2,8 @@
 import { computed } from "@preact/signals";
 import { areAllControlsOn, toggleAllControls } from "../core/state/preferences";
 import { session } from "../core/state/session";
-import { text } from "../core/text/en";
+import { t } from "../core/text/t";
 import { place } from "../runs/list/place";
-
-const words = text.allControls;
 
 /** An exercise lists the controls that it needs, and the operator of a bench needs all of them. */
 const hasChoice = computed(() => place.value.kind === "lab" && session.value?.bench === null);
@@ -20,11 +18,11 @@ export function AllControlsSwitch() {
       role="switch"
       class="button end all-controls"
       aria-checked={areAllControlsOn.value}
-      title={words.hint}
+      title={t("allControls.hint")}
       onClick={toggleAllControls}
     >
-      {words.all}
-      <span class="all-controls-word"> {words.controls}</span>
+      {t("allControls.all")}
+      <span class="all-controls-word"> {t("allControls.controls")}</span>
     </button>
   );
 }

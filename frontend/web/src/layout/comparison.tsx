@@ -4,13 +4,11 @@ import { type MetricsColumn, MetricsTable } from "../core/plots/metricstable";
 import { isArm } from "../core/state/arm";
 import { LANES_OF_ARM } from "../core/state/joints";
 import { isLive } from "../core/state/session";
-import { text } from "../core/text/en";
+import { t } from "../core/text/t";
 import { formatNumber, toDegrees } from "../core/units";
 import { AllMetricsButton } from "./allmetrics";
 import { CurrentError } from "./currenterror";
 import { bestIn, hasEnded, recoveryNameOf, recoveryOf, sinceOf } from "./window";
-
-const { compare } = text;
 
 const lookOf = ({ segments, lane }: LaneRow) =>
   lineStyleOfLane(
@@ -38,12 +36,12 @@ export function Comparison({ state }: { state: SessionState }) {
   const columns: MetricsColumn[] = [
     {
       key: "now",
-      title: inUnit(isLive.value ? compare.now : compare.lastKnown, compare.degrees),
+      title: inUnit(isLive.value ? t("compare.now") : t("compare.lastKnown"), t("compare.degrees")),
       cell: (row) => <CurrentError of={lanes[row]} maxDigits={3} />,
     },
     {
       key: "rms",
-      title: inUnit(compare.rms, compare.degrees),
+      title: inUnit(t("compare.rms"), t("compare.degrees")),
       cell: (row) => degrees(metrics[row]?.rms_position_error_rad),
       best: bestIn(
         state,
@@ -52,7 +50,7 @@ export function Comparison({ state }: { state: SessionState }) {
     },
     {
       key: "peak",
-      title: inUnit(compare.peak, compare.degrees),
+      title: inUnit(t("compare.peak"), t("compare.degrees")),
       cell: (row) => degrees(metrics[row]?.peak_position_error_rad),
       best: bestIn(
         state,
@@ -61,10 +59,10 @@ export function Comparison({ state }: { state: SessionState }) {
     },
     {
       key: "recovery",
-      title: inUnit(recoveryNameOf(state).name, compare.seconds),
+      title: inUnit(recoveryNameOf(state).name, t("compare.seconds")),
       hint: recoveryNameOf(state).hint,
-      cell: (row) => (ended[row] ? compare.ended : (recoveries[row]?.words ?? "")),
-      cellHint: (row) => (ended[row] ? compare.endedHint : recoveries[row]?.hint),
+      cell: (row) => (ended[row] ? t("compare.ended") : (recoveries[row]?.words ?? "")),
+      cellHint: (row) => (ended[row] ? t("compare.endedHint") : recoveries[row]?.hint),
       best: bestIn(
         state,
         metrics.map((known, row) => known && (recoveries[row]?.seconds ?? Infinity)),
@@ -75,15 +73,15 @@ export function Comparison({ state }: { state: SessionState }) {
   return (
     <MetricsTable
       class="surface metrics comparison"
-      label={isBench ? compare.benchHeading : compare.heading}
+      label={isBench ? t("compare.benchHeading") : t("compare.heading")}
       caption={
         <span class="line comparison-caption">
           <span class="grow clip">{sinceOf(window)}</span>
           <AllMetricsButton state={state} />
         </span>
       }
-      {...(isBench ? { captionHint: compare.benchHint } : {})}
-      corner={compare.lane}
+      {...(isBench ? { captionHint: t("compare.benchHint") } : {})}
+      corner={t("compare.lane")}
       rows={lanes.map((lane) => ({ key: String(lane.lane), look: lookOf(lane), name: lane.name }))}
       columns={columns}
     />

@@ -1,6 +1,6 @@
 import { signal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
-import { text } from "../core/text/en";
+import { t } from "../core/text/t";
 
 type Pages = typeof import("./otherpages");
 
@@ -25,7 +25,7 @@ export function LazyPage({ name }: { name: keyof Pages }) {
     <Page />
   ) : (
     <main class="muted waiting-page" aria-live="assertive">
-      {isMissing.value && text.pages.missing}
+      {isMissing.value && t("pages.missing")}
     </main>
   );
 }

@@ -3,7 +3,7 @@ import { login } from "../core/api/access";
 import { RefusedError } from "../core/api/errors";
 import { access, loginCount, updateAccess } from "../core/state/control";
 import { openStream, phase } from "../core/state/session";
-import { text } from "../core/text/en";
+import { t } from "../core/text/t";
 import { ErrorLine } from "../core/widgets/form";
 import { StopBanners, StopButton } from "../lab/safety/stopbanner";
 import { Join, SecretForm } from "../teaching/classroom/join";
@@ -26,7 +26,7 @@ export function Login() {
       phase.value = "connecting";
       openStream();
     } catch (error) {
-      setProblem(error instanceof RefusedError ? error.message : text.connection.unreachable);
+      setProblem(error instanceof RefusedError ? error.message : t("connection.unreachable"));
     }
   };
   const method = access.value?.authentication;
@@ -38,12 +38,12 @@ export function Login() {
       aria-labelledby={`${id}-title`}
       onCancel={(event) => event.preventDefault()}
     >
-      <h2 id={`${id}-title`}>{isJoined ? text.classroom.title : text.login.title}</h2>
-      <p translate>{isJoined ? text.classroom.explanation : text.login.explanation}</p>
+      <h2 id={`${id}-title`}>{isJoined ? t("classroom.title") : t("login.title")}</h2>
+      <p translate>{isJoined ? t("classroom.explanation") : t("login.explanation")}</p>
       {isJoined ? (
         <Join enter={(way) => void enter(way)} />
       ) : (
-        <SecretForm label={text.login.secret} enter={(way) => void enter(way)} send={login} />
+        <SecretForm label={t("login.secret")} enter={(way) => void enter(way)} send={login} />
       )}
       <ErrorLine>{problem}</ErrorLine>
       {access.value?.stops_without_login && (

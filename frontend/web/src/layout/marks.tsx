@@ -3,7 +3,7 @@ import { effect } from "@preact/signals";
 import emulatedIcon from "../core/icons/emulated.svg";
 import realIcon from "../core/icons/real.svg";
 import { plantKind } from "../core/state/session";
-import { text } from "../core/text/en";
+import { t } from "../core/text/t";
 import { PlantMark } from "../core/widgets/plantmark";
 
 const ICONS = { emulated: emulatedIcon, real: realIcon, unknown: realIcon } as const;
@@ -19,7 +19,7 @@ export function markTab(): void {
   const plainIcon = icon?.getAttribute("href") ?? "";
   effect(() => {
     const kind = plantKind.value;
-    document.title = kind === null ? text.name : `${text.mark[kind].name} · ${text.name}`;
+    document.title = kind === null ? t("name") : `${t(`mark.${kind}.name`)} · ${t("name")}`;
     icon?.setAttribute("href", kind === null ? plainIcon : ICONS[kind]);
   });
 }

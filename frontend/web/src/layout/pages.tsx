@@ -2,12 +2,11 @@ import { computed } from "@preact/signals";
 import type { ComponentChildren } from "preact";
 import { isClass, isInstructor } from "../core/state/control";
 import { session } from "../core/state/session";
-import { text } from "../core/text/en";
+import { t } from "../core/text/t";
 import { Popup } from "../core/widgets/popup";
 import { isOpen as isTuning } from "../lab/tuning/tuning";
 import { isRunsPlace, type Place, PlaceLink, place } from "../runs/list/place";
 
-const words = text.pages;
 type Page =
   | "lab"
   | "learn"
@@ -51,13 +50,13 @@ interface TabProps {
   name?: string;
 }
 
-function Tab({ page, isHere, name = words.names[page] }: TabProps) {
+function Tab({ page, isHere, name = t(`pages.names.${page}`) }: TabProps) {
   return (
     <li>
       <PlaceLink
         to={PAGES[page]}
         isHere={isHere}
-        title={words.hints[page]}
+        title={t(`pages.hints.${page}`)}
         shortcut={page === "runs" ? "o" : undefined}
       >
         {name}
@@ -70,7 +69,7 @@ function Tab({ page, isHere, name = words.names[page] }: TabProps) {
 export function Tabs() {
   const here = pageOf(place.value);
   return (
-    <nav class="line joined rigid tabs" aria-label={words.tabs}>
+    <nav class="line joined rigid tabs" aria-label={t("pages.tabs")}>
       {GROUPS.map((group) => (
         <ul key={group[0]} class="line">
           {group
@@ -81,7 +80,7 @@ export function Tabs() {
                   key={page}
                   page={page}
                   isHere={EVALUATION.includes(here)}
-                  name={words.evaluation}
+                  name={t("pages.evaluation")}
                 />
               ) : (
                 <Tab key={page} page={page} isHere={page === here} />
@@ -98,7 +97,7 @@ export function EvaluationTabs() {
   const here = pageOf(place.value);
   if (!EVALUATION.includes(here)) return null;
   return (
-    <nav class="bar rigid tabs" aria-label={words.evaluation}>
+    <nav class="bar rigid tabs" aria-label={t("pages.evaluation")}>
       <ul class="row">
         {EVALUATION.map((page) => (
           <Tab key={page} page={page} isHere={page === here} />
@@ -108,11 +107,11 @@ export function EvaluationTabs() {
   );
 }
 
-function Entry({ name }: { name: keyof typeof words.names }): ComponentChildren {
+function Entry({ name }: { name: "actuators" | "tune" | "guide" | "docs" }): ComponentChildren {
   return (
     <>
-      <strong>{words.names[name]}</strong>
-      <small>{words.hints[name]}</small>
+      <strong>{t(`pages.names.${name}`)}</strong>
+      <small>{t(`pages.hints.${name}`)}</small>
     </>
   );
 }
@@ -126,16 +125,16 @@ export function PagesMenu() {
           <svg viewBox="0 0 16 16" aria-hidden="true">
             <path d="M1 2h14v2.5H1zM1 6.8h14v2.5H1zM1 11.5h14V14H1z" />
           </svg>
-          <span class="menu-word">{words.open}</span>
+          <span class="menu-word">{t("pages.open")}</span>
         </>
       }
-      title={words.openHint}
-      name={words.open}
+      title={t("pages.openHint")}
+      name={t("pages.open")}
       class="button"
       popupClass="pages menu"
     >
       {(close) => (
-        <nav aria-label={words.open}>
+        <nav aria-label={t("pages.open")}>
           <ul>
             <li>
               <PlaceLink to={PAGES.actuators} isHere={isOfActuators.value} onGo={close}>

@@ -1,6 +1,6 @@
 import type { SessionState } from "../core/api/types";
 import { isLive } from "../core/state/session";
-import { text } from "../core/text/en";
+import { t } from "../core/text/t";
 import { formatNumber, toDegrees } from "../core/units";
 import { AllMetricsButton } from "./allmetrics";
 import { CurrentError } from "./currenterror";
@@ -22,13 +22,13 @@ function Recovered({ recovery: { seconds, words } }: { recovery: Recovery }) {
 export function Readout({ state }: { state: SessionState }) {
   const { window, lanes } = state;
   const metrics = lanes[0]?.in_window;
-  const since = <span class="since">{text.readout.since[window.kind]}</span>;
+  const since = <span class="since">{t(`readout.since.${window.kind}`)}</span>;
   const recovery = recoveryOf(metrics ?? null, window);
   return (
-    <dl class="surface tabular readout" aria-label={text.readout.heading}>
+    <dl class="surface tabular readout" aria-label={t("readout.heading")}>
       <div class="spread is-main">
         <dt>
-          {isLive.value ? text.readout.error : text.readout.lastError}{" "}
+          {isLive.value ? t("readout.error") : t("readout.lastError")}{" "}
           <AllMetricsButton state={state} />
         </dt>
         <dd>
@@ -37,7 +37,7 @@ export function Readout({ state }: { state: SessionState }) {
       </div>
       <div title={sinceOf(window)}>
         <dt>
-          {text.readout.rms} {since}
+          {t("readout.rms")} {since}
         </dt>
         <dd>
           {degrees(metrics?.rms_position_error_rad)} <span class="unit">deg</span>
@@ -45,13 +45,13 @@ export function Readout({ state }: { state: SessionState }) {
       </div>
       <div title={sinceOf(window)}>
         <dt>
-          {text.readout.peak} {since}
+          {t("readout.peak")} {since}
         </dt>
         <dd>
           {degrees(metrics?.peak_position_error_rad)} <span class="unit">deg</span>
         </dd>
       </div>
-      <div title={state.bench === null ? recovery.hint : text.windows.marked.hint}>
+      <div title={state.bench === null ? recovery.hint : t("windows.marked.hint")}>
         <dt>{recoveryNameOf(state).name}</dt>
         <dd>
           <Recovered recovery={recovery} />

@@ -1,11 +1,9 @@
 import type { RunDetails } from "../core/api/types";
-import { text } from "../core/text/en";
+import { t } from "../core/text/t";
 import { isLabShown, PlaceLink, place } from "../runs/list/place";
 import { type SaveStatus, saveStatus } from "../runs/list/saved";
 import { formatDuration } from "../runs/list/words";
 import { isRunOfLesson } from "../teaching/course/steprun";
-
-const words = text.recording;
 
 function describeSaved({
   state,
@@ -13,8 +11,9 @@ function describeSaved({
   duration_s: durationS,
   message,
 }: RunDetails): [string, string] {
-  if (state === "complete") return [words.saved, `${title} · ${formatDuration(durationS)}`];
-  return [words.savedPartly, `${title} · ${formatDuration(durationS)}. ${message}`];
+  if (state === "complete")
+    return [t("recording.saved"), `${title} · ${formatDuration(durationS)}`];
+  return [t("recording.savedPartly"), `${title} · ${formatDuration(durationS)}. ${message}`];
 }
 
 /** The run of a step is reported next to the step, unless its record is incomplete. */
@@ -32,8 +31,8 @@ export function SavedNote() {
       : now.stage === "saved"
         ? describeSaved(now.details)
         : now.stage === "saving"
-          ? [words.saving, ""]
-          : [words.savedUnknown, ""];
+          ? [t("recording.saving"), ""]
+          : [t("recording.savedUnknown"), ""];
   const close = () => {
     saveStatus.value = null;
   };
@@ -47,12 +46,12 @@ export function SavedNote() {
           {now.stage === "saved" && (
             <span onClickCapture={close}>
               <PlaceLink to={{ kind: "run", run: now.run, timeS: 0 }} class="button">
-                {words.open}
+                {t("recording.open")}
               </PlaceLink>
             </span>
           )}
           {now.stage !== "saving" && (
-            <button type="button" class="quiet" aria-label={text.runs.dismiss} onClick={close}>
+            <button type="button" class="quiet" aria-label={t("runs.dismiss")} onClick={close}>
               ✕
             </button>
           )}

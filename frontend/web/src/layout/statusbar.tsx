@@ -2,7 +2,7 @@ import type { ComponentChildren } from "preact";
 import { useLayoutEffect, useRef } from "preact/hooks";
 import type { BenchState, SessionState } from "../core/api/types";
 import { isLive, missedSamples, phase, samples, session } from "../core/state/session";
-import { text } from "../core/text/en";
+import { t } from "../core/text/t";
 import { formatLapse, formatNumber, formatSeconds, formatTime } from "../core/units";
 import { useLiveText } from "../core/widgets/live";
 import { isStarting } from "../hardware/status";
@@ -24,16 +24,19 @@ const PHASE_SIGNS = {
 } as const;
 
 const wordOf = (bench: BenchState): string =>
-  isStarting(bench) ? text.bench.starting : text.bench.status[bench.status];
+  isStarting(bench) ? t("bench.starting") : t(`bench.status.${bench.status}`);
 
 function SessionPill({ state: { status, bench } }: { state: SessionState }) {
   const isStandingBench = bench !== null && status === "paused";
-  const word = bench === null ? text.status[status] : wordOf(bench);
+  const word = bench === null ? t(`status.${status}`) : wordOf(bench);
   if (!isLive.value) {
     return (
-      <span class="small strong nowrap pill is-unknown" title={text.status.lastKnown(word)}>
+      <span
+        class="small strong nowrap pill is-unknown"
+        title={t("status.lastKnown", { state: word })}
+      >
         <span aria-hidden="true">?</span>{" "}
-        {phase.value === "ended" ? text.connection.ended : text.status.unknown}
+        {phase.value === "ended" ? t("connection.ended") : t("status.unknown")}
       </span>
     );
   }
@@ -63,11 +66,17 @@ function Cell({ name, hint, children, ...rest }: CellProps) {
 function SimulatedLoop({ state }: { state: SessionState }) {
   const { status, rate_hz: rateHz, real_time_factor: factor, accumulated_delay_s: delay } = state;
   const moving =
-    status === "running" ? text.status.realTime(formatNumber(factor, 3, 2)) : text.status.standing;
-  const pace = phase.value === "live" ? moving : text.status.notKnown;
+    status === "running"
+      ? t("status.realTime", { factor: formatNumber(factor, 3, 2) })
+      : t("status.standing");
+  const pace = phase.value === "live" ? moving : t("status.notKnown");
   return (
-    <Cell name={text.status.loop} class="is-loop" hint={text.status.rateHint(formatLapse(delay))}>
-      {text.status.rate(rateHz)} <small>{pace}</small>
+    <Cell
+      name={t("status.loop")}
+      class="is-loop"
+      hint={t("status.rateHint", { delay: formatLapse(delay) })}
+    >
+      {t("status.rate", { hertz: Number(rateHz.toFixed(1)) })} <small>{pace}</small>
     </Cell>
   );
 }
@@ -75,25 +84,29 @@ function SimulatedLoop({ state }: { state: SessionState }) {
 function BenchLoop({ bench: { loop } }: { bench: BenchState }) {
   if (!isLive.value) {
     return (
-      <Cell name={text.status.loop} class="is-loop is-bench">
-        {text.status.rate(loop.rate_hz)} <small>{text.status.notKnown}</small>
+      <Cell name={t("status.loop")} class="is-loop is-bench">
+        {t("status.rate", { hertz: Number(loop.rate_hz.toFixed(1)) })}{" "}
+        <small>{t("status.notKnown")}</small>
       </Cell>
     );
   }
   if (!loop.alive) {
     const isBad = loop.state !== "starting";
     return (
-      <Cell name={text.status.loop} class={`is-loop ${isBad ? "bad" : ""}`}>
-        <span aria-hidden="true">{isBad ? "▲" : "◌"}</span> {text.bench.loop.states[loop.state]}
+      <Cell name={t("status.loop")} class={`is-loop ${isBad ? "bad" : ""}`}>
+        <span aria-hidden="true">{isBad ? "▲" : "◌"}</span> {t(`bench.loop.states.${loop.state}`)}
       </Cell>
     );
   }
-  const late = text.status.late(formatLapse(loop.lateness_p50_s), formatLapse(loop.lateness_p99_s));
+  const late = t("status.late", {
+    median: formatLapse(loop.lateness_p50_s),
+    most: formatLapse(loop.lateness_p99_s),
+  });
   return (
-    <Cell name={text.status.loop} class="is-loop is-bench" hint={text.status.lateHint}>
-      {text.status.rate(loop.rate_hz)}{" "}
+    <Cell name={t("status.loop")} class="is-loop is-bench" hint={t("status.lateHint")}>
+      {t("status.rate", { hertz: Number(loop.rate_hz.toFixed(1)) })}{" "}
       <small>
-        {late} · {text.status.skipped(loop.skipped_in_run)}
+        {late} · {t("status.skipped", { count: loop.skipped_in_run })}
       </small>
     </Cell>
   );
@@ -103,19 +116,19 @@ function RecordingCell({ state: { recording, rate_hz: rateHz } }: { state: Sessi
   const isOn = recording?.state === "recording";
   if (!isLive.value) {
     return (
-      <Cell name={text.status.recording} class="is-idle">
-        {text.status.notKnown}
+      <Cell name={t("status.recording")} class="is-idle">
+        {t("status.notKnown")}
       </Cell>
     );
   }
   return (
-    <Cell name={text.status.recording} class={isOn ? "is-recording" : "is-idle"}>
+    <Cell name={t("status.recording")} class={isOn ? "is-recording" : "is-idle"}>
       {isOn && (
         <span class="recording-sign" aria-hidden="true">
           ●
         </span>
       )}{" "}
-      {isOn ? formatSeconds(recording.ticks / rateHz) : text.status.notRecording}
+      {isOn ? formatSeconds(recording.ticks / rateHz) : t("status.notRecording")}
     </Cell>
   );
 }
@@ -123,12 +136,14 @@ function RecordingCell({ state: { recording, rate_hz: rateHz } }: { state: Sessi
 function Connection() {
   const missed = missedSamples.value;
   return (
-    <Cell name={text.status.connection} class={phase.value === "live" ? "good" : "bad"}>
+    <Cell name={t("status.connection")} class={phase.value === "live" ? "good" : "bad"}>
       <span role="status">
-        <span aria-hidden="true">{PHASE_SIGNS[phase.value]}</span> {text.connection[phase.value]}
+        <span aria-hidden="true">{PHASE_SIGNS[phase.value]}</span> {t(`connection.${phase.value}`)}
       </span>{" "}
       {missed > 0 && (
-        <small title={text.connection.missedHint}>{text.connection.missed(missed)}</small>
+        <small title={t("connection.missedHint")}>
+          {t("connection.missed", { count: missed })}
+        </small>
       )}
     </Cell>
   );
@@ -161,7 +176,7 @@ export function StatusBar() {
   // While the plant is unknown, the button stays.
   const hasStop = isShown || state === null || !isLive.value;
   return (
-    <section ref={bar} class="bar is-foot rigid statusbar" aria-label={text.status.heading}>
+    <section ref={bar} class="bar is-foot rigid statusbar" aria-label={t("status.heading")}>
       <div class="line status-now">
         <CornerMark />
         {shown && <SessionPill state={shown} />}
@@ -187,9 +202,9 @@ function Clock() {
   return (
     <span
       class="strong tabular clock"
-      title={text.status.timeHint}
+      title={t("status.timeHint")}
       role="timer"
-      aria-label={text.status.time}
+      aria-label={t("status.time")}
     >
       <span ref={element} />
     </span>

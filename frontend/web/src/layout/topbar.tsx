@@ -3,7 +3,7 @@ import { SVSA } from "../core/state/actuators";
 import { isArm } from "../core/state/arm";
 import { theme, toggleTheme } from "../core/state/preferences";
 import { isLive, session } from "../core/state/session";
-import { text } from "../core/text/en";
+import { t } from "../core/text/t";
 import { HelpButton } from "../lab/keys/help";
 import { CallsButton } from "../lab/script/drawer";
 import { isLabShown, place } from "../runs/list/place";
@@ -18,8 +18,8 @@ function ThemeButton() {
     <button
       type="button"
       class="button is-icon"
-      aria-label={isDark ? text.theme.toLight : text.theme.toDark}
-      title={isDark ? text.theme.toLight : text.theme.toDark}
+      aria-label={isDark ? t("theme.toLight") : t("theme.toDark")}
+      title={isDark ? t("theme.toLight") : t("theme.toDark")}
       onClick={toggleTheme}
     >
       <svg viewBox="0 0 16 16" aria-hidden="true">
@@ -34,8 +34,8 @@ function ThemeButton() {
 }
 
 function subtitleOf(state: SessionState): string {
-  if (isArm.value) return text.arm.name;
-  return state.actuator.name === SVSA ? text.subtitle : state.actuator.title;
+  if (isArm.value) return t("arm.name");
+  return state.actuator.name === SVSA ? t("subtitle") : state.actuator.title;
 }
 
 export function TopBar() {
@@ -46,12 +46,12 @@ export function TopBar() {
   return (
     <header class={isLab && !isBasic.value ? "bar topbar is-full" : "bar topbar"}>
       <h1>
-        {text.name} <small>{isLab && state ? subtitleOf(state) : text.subtitle}</small>
+        {t("name")} <small>{isLab && state ? subtitleOf(state) : t("subtitle")}</small>
       </h1>
       <Tabs />
       {isLab && state && (
         <div class="row topbar-controls">
-          <fieldset disabled={!isLive.value} aria-label={text.session}>
+          <fieldset disabled={!isLive.value} aria-label={t("session")}>
             {!isLesson && !isBasic.value && state.actuator.name === SVSA && !isArm.value && (
               <FigurePicker state={state} />
             )}

@@ -5,7 +5,7 @@ import { perform } from "../core/state/actions";
 import { toggleRecording, toggleRun } from "../core/state/commands";
 import { mayCommand, takesCommands } from "../core/state/control";
 import { isLive } from "../core/state/session";
-import { text } from "../core/text/en";
+import { t } from "../core/text/t";
 import { formatSeconds } from "../core/units";
 
 const FIGURES: readonly Figure[] = ["4a", "4b", "5"];
@@ -26,7 +26,7 @@ function run(figure: Figure, { bench, configuration }: SessionState) {
 
 /** On a phone only the first figure has the word. */
 function FigureName({ figure }: { figure: Figure }) {
-  const [word, number] = text.figures.name[figure].split(" ");
+  const [word, number] = t(`figures.name.${figure}`).split(" ");
   return (
     <span>
       <span class="figure-word">{word} </span>
@@ -38,13 +38,13 @@ function FigureName({ figure }: { figure: Figure }) {
 export function FigurePicker({ state }: { state: SessionState }) {
   return (
     <fieldset class="line tight figures" disabled={!takesCommands.value}>
-      <legend class="hint">{text.figures.heading}</legend>
+      <legend class="hint">{t("figures.heading")}</legend>
       {FIGURES.map((figure) => (
         <button
           key={figure}
           type="button"
           class="button"
-          title={text.figures.does[figure]}
+          title={t(`figures.does.${figure}`)}
           onClick={() => void perform("session", run(figure, state))}
         >
           <FigureName figure={figure} />
@@ -58,8 +58,8 @@ function SpeedPicker({ speed }: { speed: Speed }) {
   const isListed = speed === "max" || SPEEDS.includes(speed);
   const speeds = isListed ? SPEEDS : [...SPEEDS, speed].sort((a, b) => a - b);
   return (
-    <label class="line tight select" title={text.transport.speedHint}>
-      <span class="hint select-label">{text.transport.speed}</span>
+    <label class="line tight select" title={t("transport.speedHint")}>
+      <span class="hint select-label">{t("transport.speed")}</span>
       <select
         disabled={!mayCommand.value}
         value={String(speed)}
@@ -71,10 +71,10 @@ function SpeedPicker({ speed }: { speed: Speed }) {
       >
         {speeds.map((factor) => (
           <option key={factor} value={String(factor)}>
-            {text.transport.times(factor)}
+            {t("transport.times", { factor })}
           </option>
         ))}
-        <option value="max">{text.transport.fastest}</option>
+        <option value="max">{t("transport.fastest")}</option>
       </select>
     </label>
   );
@@ -90,20 +90,22 @@ function Stepper({ state }: { state: SessionState }) {
         type="button"
         class="button"
         disabled={!isReady}
-        title={text.transport.stepHint}
+        title={t("transport.stepHint")}
         onClick={() => void perform("session", step(ticks))}
       >
-        {text.transport.step}
+        {t("transport.step")}
       </button>
       <select
-        aria-label={text.transport.stepLength}
+        aria-label={t("transport.stepLength")}
         disabled={!isReady}
         value={String(stepMs)}
         onChange={(event) => setStepMs(Number(event.currentTarget.value))}
       >
         {STEPS_MS.map((ms) => (
           <option key={ms} value={String(ms)}>
-            {text.transport.milliseconds(ms)}
+            {ms < 1000
+              ? t("transport.milliseconds", { ms })
+              : t("transport.seconds", { seconds: ms / 1000 })}
           </option>
         ))}
       </select>
@@ -114,9 +116,9 @@ function Stepper({ state }: { state: SessionState }) {
 /** Step and speed are shown while the session is paused, or with all controls. */
 export function Transport({ state, isBasic }: { state: SessionState; isBasic: boolean }) {
   const isRunning = state.status === "running";
-  const action = isRunning ? text.transport.pause : text.transport.run;
+  const action = isRunning ? t("transport.pause") : t("transport.run");
   return (
-    <fieldset class="line tight transport" aria-label={text.transport.heading}>
+    <fieldset class="line tight transport" aria-label={t("transport.heading")}>
       <button
         type="button"
         class="button is-primary"
@@ -136,7 +138,7 @@ export function Transport({ state, isBasic }: { state: SessionState; isBasic: bo
             <svg class="is-either" viewBox="0 0 24 12" aria-hidden="true">
               <path d={`${RUN}M14 1h3v10h-3zM19 1h3v10h-3z`} />
             </svg>
-            <span class="visually-hidden">{text.transport.either}</span>
+            <span class="visually-hidden">{t("transport.either")}</span>
           </>
         )}
       </button>
@@ -144,10 +146,10 @@ export function Transport({ state, isBasic }: { state: SessionState; isBasic: bo
         type="button"
         class="button"
         disabled={!mayCommand.value}
-        title={text.transport.resetHint}
+        title={t("transport.resetHint")}
         onClick={() => void perform("session", reset)}
       >
-        {text.transport.reset}
+        {t("transport.reset")}
       </button>
       {(!isBasic || state.status === "paused") && <Stepper state={state} />}
       {(!isBasic || state.status === "paused" || state.speed !== 1) && (
@@ -164,7 +166,7 @@ export function RecordButton({ state }: { state: SessionState }) {
     return (
       <button type="button" class="button record" disabled>
         <span class="record-dot" aria-hidden="true" />
-        {recording === null ? text.recording.start : text.recording.unknown}
+        {recording === null ? t("recording.start") : t("recording.unknown")}
       </button>
     );
   }
@@ -174,12 +176,12 @@ export function RecordButton({ state }: { state: SessionState }) {
         type="button"
         class="button record"
         disabled={recording !== null || !takesCommands.value}
-        title={text.recording.startHint}
+        title={t("recording.startHint")}
         aria-keyshortcuts="r"
         onClick={() => void toggleRecording(state)}
       >
         <span class="record-dot" aria-hidden="true" />
-        {text.recording.start}
+        {t("recording.start")}
       </button>
     );
   }
@@ -188,14 +190,14 @@ export function RecordButton({ state }: { state: SessionState }) {
       type="button"
       class="button record is-recording"
       disabled={!mayCommand.value}
-      title={text.recording.stop}
+      title={t("recording.stop")}
       aria-keyshortcuts="r"
       onClick={() => void toggleRecording(state)}
     >
       <span class="record-dot" aria-hidden="true" />
-      <span class="record-word">{text.recording.running}</span>{" "}
+      <span class="record-word">{t("recording.running")}</span>{" "}
       {formatSeconds(recording.ticks / rateHz)}
-      <span class="visually-hidden">{text.recording.stop}</span>
+      <span class="visually-hidden">{t("recording.stop")}</span>
     </button>
   );
 }

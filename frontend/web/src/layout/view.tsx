@@ -2,7 +2,7 @@ import { useCallback, useEffect, useRef } from "preact/hooks";
 import { sessionName } from "../core/api/request";
 import { theme } from "../core/state/preferences";
 import { connectionCount, session } from "../core/state/session";
-import { text } from "../core/text/en";
+import { t } from "../core/text/t";
 import { answerKey } from "../lab/keys/keys";
 import { addressOf } from "../lab/scene/cameras";
 import { SceneLabels } from "../lab/scene/labels";
@@ -41,7 +41,7 @@ export function View({ isBasic }: { isBasic: boolean }) {
       {hasWebGl && connection > 0 && (
         <iframe
           key={`${connection} ${theme.value}`}
-          title={text.view}
+          title={t("view")}
           ref={begin}
           onLoad={({ currentTarget }) => {
             const inner = currentTarget.contentWindow;

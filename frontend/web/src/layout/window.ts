@@ -2,24 +2,24 @@
 import type { LaneRow, Metrics, SessionState, WindowState } from "../core/api/types";
 import { isLost } from "../core/plots/metricrows";
 import type { SampleRing } from "../core/stream/ring";
-import { text } from "../core/text/en";
-import { measuredText } from "../core/text/measured";
+import { t } from "../core/text/t";
+
 import { formatNumber } from "../core/units";
 import { bestOf } from "../core/widgets/tables";
 import { isDisturbed } from "../runs/list/measured";
-
-const { windows } = text;
 
 /** A label within a sentence; NDOBC keeps its capitals. */
 const inSentence = (label: string): string =>
   label.replace(/^[A-Z](?=[a-z])/, (letter) => letter.toLowerCase());
 
 const windowText = ({ label, start_s: startS }: WindowState): string =>
-  windows.at(inSentence(label), startS.toFixed(2));
+  t("windows.at", { label: inSentence(label), time: startS.toFixed(2) });
 
 /** Start of the window and its time, in the words of a record. */
 export const sinceOf = ({ kind, label, start_s: startS }: WindowState): string =>
-  kind === "start" ? measuredText.start : measuredText.since(label, startS.toFixed(2));
+  kind === "start"
+    ? t("measured.start")
+    : t("measured.since", { what: label, from: startS.toFixed(2) });
 
 const STEADY_STATE_S = 0.5;
 
@@ -86,16 +86,18 @@ export interface Recovery {
  * load acts.
  */
 export const recoveryNameOf = ({ bench }: Pick<SessionState, "bench">) =>
-  bench === null ? { name: measuredText.names.recovered, hint: windows.recovery } : windows.marked;
+  bench === null
+    ? { name: t("measured.names.recovered"), hint: t("windows.recovery") }
+    : { name: t("windows.marked.name"), hint: t("windows.marked.hint") };
 
 /** metrics: of the window; null for a lane without values in it. */
 export function recoveryOf(metrics: Metrics | null, window: WindowState): Recovery {
   const none = formatNumber(null);
   if (!isDisturbed(window)) {
-    const words = window.kind === "start" ? windows.noLoad : none;
-    return { seconds: null, words, hint: windows.undisturbed };
+    const words = window.kind === "start" ? t("windows.noLoad") : none;
+    return { seconds: null, words, hint: t("windows.undisturbed") };
   }
-  const hint = windows.recoveryFrom(windowText(window));
+  const hint = t("windows.recoveryFrom", { load: windowText(window) });
   if (metrics === null) return { seconds: null, words: none, hint };
   const { recovery_time_s: seconds } = metrics;
   if (
@@ -105,10 +107,10 @@ export function recoveryOf(metrics: Metrics | null, window: WindowState): Recove
     const after = formatNumber(seconds, 3, 2);
     return {
       seconds: null,
-      words: windows.lost,
-      hint: windows.lostAfter(windowText(window), after),
+      words: t("windows.lost"),
+      hint: t("windows.lostAfter", { seconds: after, load: windowText(window) }),
     };
   }
   if (seconds !== null) return { seconds, words: formatNumber(seconds, 3, 2), hint };
-  return { seconds, words: windows.notYet, hint };
+  return { seconds, words: t("windows.notYet"), hint };
 }

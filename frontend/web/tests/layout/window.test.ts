@@ -7,8 +7,8 @@ import type {
   WindowState,
 } from "../../src/core/api/types";
 import { SampleRing } from "../../src/core/stream/ring";
-import { text as page } from "../../src/core/text/en";
-import { text as replay } from "../../src/core/text/replay";
+import { t } from "../../src/core/text/t";
+
 import {
   bestIn,
   hasEnded,
@@ -106,10 +106,10 @@ it("uses the same words as the replay and the overlay", async () => {
     const message = describeMeasured(recorded);
     expect(message.split(",")[0]).toBe(live.split(",")[0]);
   }
-  expect(page.compare.rms).toBe(replay.numbers.rms);
-  expect(page.readout.peak).toBe(replay.numbers.peak);
-  expect(page.overlay.steadyStateError).toBe(replay.numbers.settled);
-  expect(page.overlay.recovery).toBe(recoveryNameOf({ bench: null }).name);
+  expect(t("compare.rms")).toBe(t("replay.numbers.rms"));
+  expect(t("readout.peak")).toBe(t("replay.numbers.peak"));
+  expect(t("overlay.steadyStateError")).toBe(t("replay.numbers.settled"));
+  expect(t("overlay.recovery")).toBe(recoveryNameOf({ bench: null }).name);
 });
 
 describe("the recovery time", () => {

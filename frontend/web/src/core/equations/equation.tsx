@@ -1,13 +1,12 @@
 import type { LawRow } from "../api/types";
 import { laws } from "../state/laws";
 import { session } from "../state/session";
-import { text } from "../text/en";
+import { t } from "../text/t";
 import { Popup } from "../widgets/popup";
 import { MathSymbol } from "../widgets/symbol";
 import { EQUATIONS, type Equation, type Topic } from "./equations";
 import { Formula } from "./formula";
 
-const words = text.equations;
 const SYMBOLS: Record<Topic, string> = {
   motion: "q_d",
   position: "q",
@@ -26,20 +25,20 @@ function EquationRow({ equation }: { equation: Equation }) {
   const { number, tex, printed, note } = equation;
   return (
     <div class="equation">
-      {number && <span class="tag muted">{words.number(number)}</span>}
+      {number && <span class="tag muted">{t("equations.number", { number })}</span>}
       <Formula tex={tex} />
       {printed && (
         <div class="note is-warn equation-printed">
-          <span class="tag strong">{words.printed}</span>
+          <span class="tag strong">{t("equations.printed")}</span>
           <Formula tex={printed} />
           <p class="small" translate>
-            {words.corrected}
+            {t("equations.corrected")}
           </p>
         </div>
       )}
       {note && (
         <p class="hint" translate>
-          {words.notes[note]}
+          {t(`equations.notes.${note}`)}
         </p>
       )}
     </div>
@@ -71,7 +70,7 @@ export function EquationCard({ topic }: { topic: Topic }) {
 
 /** The symbol of a quantity; a click shows its equations. */
 export function EquationButton({ topic }: { topic: Topic }) {
-  const title = words.open(words.topics[topic]);
+  const title = t("equations.open", { topic: t(`equations.topics.${topic}`) });
   return (
     <Popup
       class="symbol"

@@ -1,10 +1,8 @@
 /** Long-running job: progress, speed and remaining time. */
 import type { ComponentChildren } from "preact";
 import type { Job } from "../api/jobs";
-import { text } from "../text/en";
+import { t } from "../text/t";
 import { formatSeconds } from "../units";
-
-const words = text.jobs;
 
 export const isJobRunning = (job: Pick<Job, "status"> | null): boolean =>
   job?.status === "waiting" || job?.status === "running";
@@ -12,11 +10,21 @@ export const isJobRunning = (job: Pick<Job, "status"> | null): boolean =>
 /** Status in a few words; empty for a completed job. */
 export function describeJob(job: Job | null): string[] {
   if (job === null) return [];
-  const parts = isJobRunning(job) || job.status !== "done" ? [words.status[job.status]] : [];
+  const parts: string[] =
+    isJobRunning(job) || job.status !== "done" ? [t(`jobs.status.${job.status}`)] : [];
   if (job.problem) parts.push(job.problem);
   if (job.status !== "running") return parts;
-  parts.push(job.rate_per_s === null ? words.compiling : words.rate(job.rate_per_s));
-  if (job.left_s !== null) parts.push(words.left(formatSeconds(job.left_s)));
+  parts.push(
+    job.rate_per_s === null
+      ? t("jobs.compiling")
+      : t("jobs.rate", {
+          rate:
+            job.rate_per_s < 10
+              ? job.rate_per_s.toFixed(1)
+              : Math.round(job.rate_per_s).toLocaleString("en"),
+        }),
+  );
+  if (job.left_s !== null) parts.push(t("jobs.left", { time: formatSeconds(job.left_s) }));
   return parts;
 }
 
@@ -41,8 +49,8 @@ export function JobProgress({ job, done, total, label, onCancel, children }: Job
       </span>
       {hasStarted && <progress value={job?.done ?? 0} max={total} aria-label={label} />}
       {hasStarted ? (
-        <button type="button" class="button" title={words.cancelHint} onClick={onCancel}>
-          {words.cancel}
+        <button type="button" class="button" title={t("jobs.cancelHint")} onClick={onCancel}>
+          {t("jobs.cancel")}
         </button>
       ) : (
         children

@@ -1,5 +1,5 @@
 import type { ComponentChildren } from "preact";
-import { metricsText as words } from "../text/metrics";
+import { t } from "../text/t";
 import { Swatch } from "./legend";
 import { listGroups, type MeasuredLane, readCell } from "./metricrows";
 
@@ -12,7 +12,7 @@ interface AllMetricsProps {
 /** Every metric of a window, one column per lane: position, stiffness and effort. */
 export function AllMetrics({ caption, lanes }: AllMetricsProps) {
   return (
-    <table class="metrics all-metrics" aria-label={words.all}>
+    <table class="metrics all-metrics" aria-label={t("metrics.all")}>
       <caption>{caption}</caption>
       <thead>
         <tr>

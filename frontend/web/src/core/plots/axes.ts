@@ -1,7 +1,7 @@
 /** The axes of every plot: limits, ticks and style. */
 
 import type uPlot from "uplot";
-import { plotsText as text } from "../text/plots";
+import { t } from "../text/t";
 import { formatNumber } from "../units";
 import { palette } from "./linestyles";
 import type { Span } from "./spans";
@@ -81,7 +81,9 @@ const MIN_GAP_PX = 6;
 export function timeStep({ from, to }: Span, width: number): number {
   const hasRoom = (step: number) => {
     const last = Math.floor(to / step);
-    const lengths = [last, last - 1].map((index) => text.plots.timeTick(index * step).length);
+    const lengths = [last, last - 1].map(
+      (index) => t("plots.timeTick", { seconds: Number((index * step).toFixed(4)) }).length,
+    );
     const words = Math.max(MIN_BETWEEN_PX, Math.max(...lengths) * DIGIT_PX + BETWEEN_WORDS_PX);
     return (step / (to - from)) * width >= words;
   };

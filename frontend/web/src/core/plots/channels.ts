@@ -1,7 +1,7 @@
 /** The server's channels in plots: unit, scale, line style, and related channels. */
 import type { SessionState, StreamedName } from "../api/types";
 import type { DerivedName } from "../stream/ring";
-import { plotsText as text } from "../text/plots";
+import { t } from "../text/t";
 import { DEGREES_PER_RADIAN } from "../units";
 import type { Bound, PlotColour, Trace } from "./definitions";
 
@@ -149,7 +149,7 @@ export function boundsOf(traces: readonly Trace[], state: SessionState | null): 
     const bound = CHANNELS[name].bound?.(state);
     if (bound === undefined) continue;
     const value = bound * CHANNELS[name].factor;
-    const label = text.channelLabels[name];
+    const label = t(`channelLabels.${name}`);
     const same = limits.get(value);
     if (same === undefined) {
       limits.set(value, { names: new Set([label]), colour: isAlone ? colour : "reference" });
@@ -159,7 +159,7 @@ export function boundsOf(traces: readonly Trace[], state: SessionState | null): 
     }
   }
   return [...limits].map(([value, { names, colour }]) => ({
-    label: text.plots.limit([...names].join(", ")),
+    label: t("plots.limit", { label: [...names].join(", ") }),
     value,
     colour,
   }));

@@ -5,7 +5,7 @@
  */
 import type { LaneSegments } from "../state/lanes";
 import type { SampleRing } from "../stream/ring";
-import { text } from "../text/en";
+import { t } from "../text/t";
 import { CHANNELS, type ChannelName } from "./channels";
 import { isWithin, type Trace } from "./definitions";
 import type { Span } from "./spans";
@@ -32,7 +32,7 @@ export function columnsOf(
   }
   const controllers = [...byController.values()];
   const always = { lane: 1, from: Number.NEGATIVE_INFINITY, to: Number.POSITIVE_INFINITY };
-  const common = { name: text.plots.common, pieces: [always] };
+  const common = { name: t("plots.common"), pieces: [always] };
   return channels.flatMap((channel) =>
     (CHANNELS[channel].isReference ? [common] : controllers).map((controller) => ({
       ...controller,

@@ -1,5 +1,5 @@
 import type { RefObject } from "preact";
-import { text } from "../text/en";
+import { t } from "../text/t";
 import { CURSOR_NAMES, type CursorName, cursors, moveCursor, stepCursor } from "./cursors";
 import { shareAt } from "./gestures";
 import { frozen } from "./span";
@@ -70,12 +70,12 @@ function Handle({ name, box }: CursorProps) {
       style={{ left: `${share * 100}%` }}
       role="slider"
       tabIndex={0}
-      aria-label={text.cursors.handle(text.cursors.names[name])}
+      aria-label={t("cursors.handle", { name: t(`cursors.names.${name}`) })}
       aria-valuemin={ring.oldestTime}
       aria-valuemax={ring.newestTime}
       aria-valuenow={place.time}
-      aria-valuetext={text.cursors.value(place.time.toFixed(3))}
-      title={text.cursors.keys}
+      aria-valuetext={t("cursors.value", { time: place.time.toFixed(3) })}
+      title={t("cursors.keys")}
       onKeyDown={(event) => {
         const step = STEPS[event.key];
         if (step === undefined || event.ctrlKey || event.metaKey || event.altKey) return;
@@ -84,7 +84,7 @@ function Handle({ name, box }: CursorProps) {
       }}
       {...drag}
     >
-      {text.cursors.names[name]}
+      {t(`cursors.names.${name}`)}
     </div>
   );
 }

@@ -1,7 +1,7 @@
 import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import type { SessionEvent } from "../api/types";
 import { selectionCount, session } from "../state/session";
-import { text } from "../text/en";
+import { t } from "../text/t";
 import { closeOnEscape } from "../widgets/panel";
 import { isLoad, nameMarks, type PlacedMark, rankOf } from "./eventlines";
 import { onFrame, shareOf } from "./frame";
@@ -32,7 +32,7 @@ function Mark({ event, nextS }: MarkProps) {
     >
       <button
         type="button"
-        aria-label={text.steps.mark(event.label, event.time_s.toFixed(2))}
+        aria-label={t("steps.mark", { event: event.label, time: event.time_s.toFixed(2) })}
         aria-expanded={isOpen}
         onFocus={() => setOpen(true)}
         onBlur={() => setOpen(false)}
@@ -103,7 +103,7 @@ export function EventMarks() {
     return stop;
   }, []);
   return (
-    <ul class="marks" ref={list} aria-label={text.plots.events}>
+    <ul class="marks" ref={list} aria-label={t("plots.events")}>
       {events.map((event, index) => (
         <Mark
           key={keys[index]}

@@ -1,6 +1,6 @@
 import { useSignal } from "@preact/signals";
 import type { ComponentChildren } from "preact";
-import { plotsText } from "../text/plots";
+import { t } from "../text/t";
 import type { LineStyle, PlotSign } from "./definitions";
 
 const SIGN_PATHS: Readonly<Record<PlotSign, string>> = {
@@ -84,7 +84,7 @@ export function Legend({ note, entries, hidden, onToggle, ...rest }: LegendProps
           type="button"
           class={`legend-entry ${widthClassOf(entry)}`}
           aria-pressed={!hidden.has(entry.key)}
-          title={plotsText.plots.toggle(entry.label)}
+          title={t("plots.toggle", { label: entry.label })}
           onClick={() => onToggle(entry.key)}
         >
           <Swatch look={entry} sign={entry.sign} />

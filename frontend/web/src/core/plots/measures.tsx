@@ -1,5 +1,5 @@
 import type { SampleRing } from "../stream/ring";
-import { text } from "../text/en";
+import { t } from "../text/t";
 import { formatNumber } from "../units";
 import { CHANNELS, type ChannelName, unitOf } from "./channels";
 import { cursorSamples } from "./cursors";
@@ -13,12 +13,12 @@ import { composeContent, tracesOf } from "./traces";
 
 const COLUMNS = ["a", "b", "delta", "min", "max", "rms"] as const satisfies (keyof Measures)[];
 const HEADS: Readonly<Record<(typeof COLUMNS)[number], string>> = {
-  a: text.cursors.at(text.cursors.names.a),
-  b: text.cursors.at(text.cursors.names.b),
-  delta: text.cursors.delta,
-  min: text.cursors.min,
-  max: text.cursors.max,
-  rms: text.cursors.rms,
+  a: t("cursors.at", { name: t("cursors.names.a") }),
+  b: t("cursors.at", { name: t("cursors.names.b") }),
+  delta: t("cursors.delta"),
+  min: t("cursors.min"),
+  max: t("cursors.max"),
+  rms: t("cursors.rms"),
 };
 
 const isTruth = ({ channel }: Trace) => CHANNELS[channel as ChannelName].truthOf !== undefined;
@@ -33,7 +33,9 @@ function curvesOf({ channels }: PlotSetup): Trace[] {
     .map((curve) => {
       const name =
         lanes.length > 1 && isTruth(curve) ? lanes[curve.lane - 1]?.at(-1)?.name : undefined;
-      return name === undefined ? curve : { ...curve, label: text.plots.ofLane(name, curve.label) };
+      return name === undefined
+        ? curve
+        : { ...curve, label: t("plots.ofLane", { lane: name, channel: curve.label }) };
     });
 }
 
@@ -71,8 +73,8 @@ function Rows({ setup, indices }: RowsProps) {
               <Swatch look={trace} sign={trace.sign} />
               {trace.label}{" "}
               {measures.missingS > 0 && (
-                <span class="bad" title={text.cursors.missingHint}>
-                  {text.cursors.missing(formatNumber(measures.missingS, 3, 2))}
+                <span class="bad" title={t("cursors.missingHint")}>
+                  {t("cursors.missing", { seconds: formatNumber(measures.missingS, 3, 2) })}
                 </span>
               )}
             </th>
@@ -94,23 +96,23 @@ export function MeasureTable() {
   const [a, b] = [ring.timeAt(indices[0]), ring.timeAt(indices[1])];
   const lapse = b - a;
   return (
-    <section class="column joined small tabular measures" aria-label={text.cursors.table}>
+    <section class="column joined small tabular measures" aria-label={t("cursors.table")}>
       <dl class="row measures-head">
-        <dt>{text.cursors.names.a}</dt>
-        <dd>{text.cursors.value(a.toFixed(3))}</dd>
-        <dt>{text.cursors.names.b}</dt>
-        <dd>{text.cursors.value(b.toFixed(3))}</dd>
-        <dt>{text.cursors.deltaTime}</dt>
-        <dd>{text.cursors.value(formatNumber(lapse, 6, 3))}</dd>
-        <dt>{text.cursors.rate}</dt>
+        <dt>{t("cursors.names.a")}</dt>
+        <dd>{t("cursors.value", { time: a.toFixed(3) })}</dd>
+        <dt>{t("cursors.names.b")}</dt>
+        <dd>{t("cursors.value", { time: b.toFixed(3) })}</dd>
+        <dt>{t("cursors.deltaTime")}</dt>
+        <dd>{t("cursors.value", { time: formatNumber(lapse, 6, 3) })}</dd>
+        <dt>{t("cursors.rate")}</dt>
         <dd>{formatNumber(lapse === 0 ? null : 1 / Math.abs(lapse), 4, 3)} Hz</dd>
       </dl>
       {/* biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls must be reached by key */}
-      <section class="measures-rows" tabIndex={0} aria-label={text.cursors.rows}>
+      <section class="measures-rows" tabIndex={0} aria-label={t("cursors.rows")}>
         <table>
           <thead>
             <tr>
-              <th scope="col">{text.cursors.curve}</th>
+              <th scope="col">{t("cursors.curve")}</th>
               {COLUMNS.map((column) => (
                 <th key={column} scope="col">
                   {HEADS[column]}

@@ -1,4 +1,4 @@
-import { text } from "../text/en";
+import { t } from "../text/t";
 import { Popup } from "../widgets/popup";
 import { CHANNELS_BY_UNIT, type ChannelName, unitOf } from "./channels";
 import type { Trace } from "./definitions";
@@ -19,7 +19,7 @@ function Curves({ setup }: { setup: PlotSetup }) {
   const channels = CHANNELS_BY_UNIT.find((group) => group.unit === unit)?.channels ?? [];
   return (
     <fieldset>
-      <legend>{text.picker.curves}</legend>
+      <legend>{t("picker.curves")}</legend>
       {channels.map((channel) => {
         const isShown = setup.channels.includes(channel);
         return (
@@ -30,11 +30,11 @@ function Curves({ setup }: { setup: PlotSetup }) {
               disabled={isShown && setup.channels.length === 1}
               onChange={() => toggleChannel(setup.key, channel)}
             />
-            {text.channelNames[channel]}
+            {t(`channelNames.${channel}`)}
           </label>
         );
       })}
-      <p class="hint">{text.picker.oneUnit(unit)}</p>
+      <p class="hint">{t("picker.oneUnit", { unit })}</p>
     </fieldset>
   );
 }
@@ -44,14 +44,14 @@ function Axes({ channels }: PlotSetup) {
   const [across, up] = channels as readonly [ChannelName, ChannelName];
   return (
     <fieldset class="popup-axes">
-      <legend>{text.picker.axes}</legend>
+      <legend>{t("picker.axes")}</legend>
       <ChannelChoice
-        name={text.picker.up}
+        name={t("picker.up")}
         value={up}
         onChoose={(next) => choosePhase(across, next)}
       />
       <ChannelChoice
-        name={text.picker.across}
+        name={t("picker.across")}
         value={across}
         onChoose={(next) => choosePhase(next, up)}
       />
@@ -65,51 +65,51 @@ export function PlotMenu({ setup, title, traces, hidden }: PlotMenuProps) {
   return (
     <Popup
       class="rigid muted strong plot-menu"
-      name={text.picker.menu(title)}
-      title={text.picker.menu(title)}
+      name={t("picker.menu", { plot: title })}
+      title={t("picker.menu", { plot: title })}
       button={<span aria-hidden="true">⋯</span>}
     >
       {(close) => (
         <>
           {setup.preset === "phase" ? <Axes {...setup} /> : <Curves setup={setup} />}
           <fieldset class="row tight">
-            <legend>{text.save.title}</legend>
+            <legend>{t("save.title")}</legend>
             <button
               type="button"
               class="button"
-              title={text.save.pngHint}
+              title={t("save.pngHint")}
               onClick={() => {
                 void savePng(title, setup, shown);
                 close();
               }}
             >
-              {text.save.png}
+              {t("save.png")}
             </button>
             <button
               type="button"
               class="button"
-              title={text.save.svgHint}
+              title={t("save.svgHint")}
               onClick={() => {
                 saveSvg(title, setup, shown);
                 close();
               }}
             >
-              {text.save.svg}
+              {t("save.svg")}
             </button>
             <button
               type="button"
               class="button"
-              title={text.save.csvHint}
+              title={t("save.csvHint")}
               onClick={() => {
                 savePlotCsv(title, setup);
                 close();
               }}
             >
-              {text.save.csv}
+              {t("save.csv")}
             </button>
           </fieldset>
           <button type="button" class="button" onClick={() => removePlot(setup.key)}>
-            {text.picker.remove}
+            {t("picker.remove")}
           </button>
         </>
       )}

@@ -1,10 +1,8 @@
 /** Every metric of a window of a run, as rows of a table. */
 import type { Metrics } from "../api/types";
-import { metricsText as words } from "../text/metrics";
+import { t } from "../text/t";
 import { formatError, formatNumber, toDegrees } from "../units";
 import type { LineStyle } from "./definitions";
-
-const { units, undefined: reasons } = words;
 
 export interface MeasuredLane {
   key: string;
@@ -41,7 +39,7 @@ const SMALLEST = 1e-6;
 
 /** A non-zero number is never shown as zero: without effects the loop leaves 10⁻¹⁵. */
 const format = (value: number): string =>
-  value !== 0 && Math.abs(value) < SMALLEST ? words.tiny : formatError(value);
+  value !== 0 && Math.abs(value) < SMALLEST ? t("metrics.tiny") : formatError(value);
 
 const number = (value: number): Shown => ({ value: format(value) });
 const missing = (hint: string): Shown => ({ value: formatNumber(null), hint });
@@ -49,7 +47,7 @@ const orMissing = (value: number | null, hint: string): Shown =>
   value === null ? missing(hint) : number(value);
 const both = (first: number | null, second: number | null): Shown =>
   first === null || second === null
-    ? missing(reasons.moving)
+    ? missing(t("metrics.undefined.moving"))
     : { value: `${format(first)} / ${format(second)}` };
 
 /** Metrics that position and stiffness have in common; convert: to the unit on screen. */
@@ -68,8 +66,8 @@ interface Output {
 }
 
 const POSITION: Output = {
-  unit: units.degrees,
-  integralUnit: units.degreeSeconds,
+  unit: t("metrics.units.degrees"),
+  integralUnit: t("metrics.units.degreeSeconds"),
   convert: toDegrees,
   rms: (metrics) => metrics.rms_position_error_rad,
   peak: (metrics) => metrics.peak_position_error_rad,
@@ -82,8 +80,8 @@ const POSITION: Output = {
 };
 
 const STIFFNESS: Output = {
-  unit: units.stiffness,
-  integralUnit: units.stiffnessSeconds,
+  unit: t("metrics.units.stiffness"),
+  integralUnit: t("metrics.units.stiffnessSeconds"),
   convert: (value) => value,
   rms: (metrics) => metrics.rms_stiffness_error_nm_per_rad,
   peak: (metrics) => metrics.peak_stiffness_error_nm_per_rad,
@@ -97,16 +95,38 @@ const STIFFNESS: Output = {
 
 function showRecovery(of: Output, metrics: Metrics, isDisturbed: boolean): Shown {
   const seconds = of.recovery(metrics);
-  if (!isDisturbed) return missing(reasons.undisturbed);
+  if (!isDisturbed) return missing(t("metrics.undefined.undisturbed"));
   if (seconds === null) {
     const isUnmoved = of === STIFFNESS && of.peak(metrics) <= UNMOVED_NM_PER_RAD;
-    return missing(isUnmoved ? reasons.unmoved : reasons.outside);
+    return missing(isUnmoved ? t("metrics.undefined.unmoved") : t("metrics.undefined.outside"));
   }
   if (isLost(of.steady(metrics), of.peak(metrics))) {
-    return missing(reasons.lost(formatNumber(seconds, 3, 3)));
+    return missing(t("metrics.undefined.lost", { seconds: formatNumber(seconds, 3, 3) }));
   }
   return number(seconds);
 }
+
+const nameMetric = (
+  key:
+    | "effort"
+    | "iae"
+    | "noise"
+    | "overshoot"
+    | "peak"
+    | "peakShare"
+    | "peakTorque"
+    | "recovery"
+    | "rise"
+    | "rms"
+    | "rmsTorque"
+    | "settling"
+    | "steady"
+    | "variation"
+    | "work",
+) => ({
+  name: t(`metrics.${key}.name`),
+  hint: t(`metrics.${key}.hint`),
+});
 
 /** The rows of the errors, and those of the step response if one of the lanes has one. */
 function listOutput(of: Output, lanes: readonly MeasuredLane[]): MetricRow[] {
@@ -115,49 +135,52 @@ function listOutput(of: Output, lanes: readonly MeasuredLane[]): MetricRow[] {
   const hasStep = lanes.some(({ metrics }) => metrics !== null && of.rise(metrics) !== null);
   const steps: MetricRow[] = [
     {
-      ...words.rise,
-      unit: units.seconds,
-      read: (metrics) => orMissing(of.rise(metrics), reasons.unreached),
+      ...nameMetric("rise"),
+      unit: t("metrics.units.seconds"),
+      read: (metrics) => orMissing(of.rise(metrics), t("metrics.undefined.unreached")),
     },
     {
-      ...words.overshoot,
-      unit: units.percent,
+      ...nameMetric("overshoot"),
+      unit: t("metrics.units.percent"),
       read: (metrics) => {
         const share = of.overshoot(metrics);
-        return share === null ? missing(reasons.unreached) : number(100 * share);
+        return share === null ? missing(t("metrics.undefined.unreached")) : number(100 * share);
       },
     },
     {
-      ...words.settling,
-      unit: units.seconds,
-      read: (metrics) => orMissing(of.settling(metrics), reasons.unsettled),
+      ...nameMetric("settling"),
+      unit: t("metrics.units.seconds"),
+      read: (metrics) => orMissing(of.settling(metrics), t("metrics.undefined.unsettled")),
     },
   ];
   return [
-    { ...words.rms, unit: of.unit, read: inUnit(of.rms) },
-    { ...words.peak, unit: of.unit, read: inUnit(of.peak) },
+    { ...nameMetric("rms"), unit: of.unit, read: inUnit(of.rms) },
+    { ...nameMetric("peak"), unit: of.unit, read: inUnit(of.peak) },
     ...(of === STIFFNESS
       ? [
           {
-            ...words.peakShare,
-            unit: units.percent,
+            ...nameMetric("peakShare"),
+            unit: t("metrics.units.percent"),
             read: (metrics: Metrics) => number(100 * metrics.peak_stiffness_error_share),
           },
         ]
       : []),
     {
-      ...words.steady,
+      ...nameMetric("steady"),
       unit: of.unit,
       read: (metrics) => {
         const steady = of.steady(metrics);
-        const why = metrics.duration_s < 1 ? reasons.tooShort : reasons.loadEnded;
+        const why =
+          metrics.duration_s < 1
+            ? t("metrics.undefined.tooShort")
+            : t("metrics.undefined.loadEnded");
         return steady === null ? missing(why) : number(of.convert(steady));
       },
     },
-    { ...words.iae, unit: of.integralUnit, read: inUnit(of.integral) },
+    { ...nameMetric("iae"), unit: of.integralUnit, read: inUnit(of.integral) },
     {
-      ...words.recovery,
-      unit: units.seconds,
+      ...nameMetric("recovery"),
+      unit: t("metrics.units.seconds"),
       read: (metrics, isDisturbed) => showRecovery(of, metrics, isDisturbed),
     },
     ...(hasStep ? steps : []),
@@ -166,25 +189,33 @@ function listOutput(of: Output, lanes: readonly MeasuredLane[]): MetricRow[] {
 
 const EFFORT: readonly MetricRow[] = [
   {
-    ...words.rmsTorque,
-    unit: units.torque,
+    ...nameMetric("rmsTorque"),
+    unit: t("metrics.units.torque"),
     read: (metrics) => both(metrics.rms_torque1_nm, metrics.rms_torque2_nm),
   },
   {
-    ...words.peakTorque,
-    unit: units.torque,
+    ...nameMetric("peakTorque"),
+    unit: t("metrics.units.torque"),
     read: (metrics) => both(metrics.peak_torque1_nm, metrics.peak_torque2_nm),
   },
-  { ...words.work, unit: units.work, read: (metrics) => number(metrics.work_j) },
-  { ...words.effort, unit: units.effort, read: (metrics) => number(metrics.effort_n2m2_s) },
   {
-    ...words.variation,
-    unit: units.variation,
+    ...nameMetric("work"),
+    unit: t("metrics.units.work"),
+    read: (metrics) => number(metrics.work_j),
+  },
+  {
+    ...nameMetric("effort"),
+    unit: t("metrics.units.effort"),
+    read: (metrics) => number(metrics.effort_n2m2_s),
+  },
+  {
+    ...nameMetric("variation"),
+    unit: t("metrics.units.variation"),
     read: (metrics) => both(metrics.torque1_variation_nm_per_s, metrics.torque2_variation_nm_per_s),
   },
   {
-    ...words.noise,
-    unit: units.torque,
+    ...nameMetric("noise"),
+    unit: t("metrics.units.torque"),
     read: (metrics) => both(metrics.torque1_noise_nm, metrics.torque2_noise_nm),
   },
 ];
@@ -197,11 +228,11 @@ interface MetricGroup {
 
 /** The rows by group. */
 export const listGroups = (lanes: readonly MeasuredLane[]): MetricGroup[] => [
-  { name: words.groups.position, remark: "", rows: listOutput(POSITION, lanes) },
-  { name: words.groups.stiffness, remark: "", rows: listOutput(STIFFNESS, lanes) },
-  { name: words.groups.effort, remark: words.both, rows: EFFORT },
+  { name: t("metrics.groups.position"), remark: "", rows: listOutput(POSITION, lanes) },
+  { name: t("metrics.groups.stiffness"), remark: "", rows: listOutput(STIFFNESS, lanes) },
+  { name: t("metrics.groups.effort"), remark: t("metrics.both"), rows: EFFORT },
 ];
 
 /** Cell of a row for a lane. */
 export const readCell = (row: MetricRow, { metrics, isDisturbed }: MeasuredLane): Shown =>
-  metrics === null ? missing(reasons.lane) : row.read(metrics, isDisturbed);
+  metrics === null ? missing(t("metrics.undefined.lane")) : row.read(metrics, isDisturbed);

@@ -1,9 +1,7 @@
 import type { ComponentChildren } from "preact";
-import { plotsText } from "../text/plots";
+import { t } from "../text/t";
 import type { LineStyle } from "./definitions";
 import { Swatch } from "./legend";
-
-const { compare: words } = plotsText;
 
 /** The measured controller. */
 interface MeasuredRow {
@@ -94,8 +92,8 @@ function Cell({ column, row }: { column: MetricsColumn; row: number }) {
     <td class={classes || undefined} title={column.cellHint?.(row)}>
       {isBest && (
         <>
-          <span aria-hidden="true">{words.bestSign}</span>
-          <span class="visually-hidden">{words.best}</span>
+          <span aria-hidden="true">{t("compare.bestSign")}</span>
+          <span class="visually-hidden">{t("compare.best")}</span>
         </>
       )}
       {column.cell(row)}

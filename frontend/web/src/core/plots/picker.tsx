@@ -1,5 +1,5 @@
 import { useId } from "preact/hooks";
-import { text } from "../text/en";
+import { t } from "../text/t";
 import { Popup } from "../widgets/popup";
 import { CHANNELS_BY_UNIT, type ChannelName, isChannel } from "./channels";
 import { addOwnPlot, MAX_PLOTS, PRESET_NAMES, resetPlots, setups, togglePreset } from "./setups";
@@ -35,7 +35,7 @@ export function ChannelChoice({ name, hint, value, disabled, onChoose }: Channel
           <optgroup key={unit} label={unit}>
             {channels.map((channel) => (
               <option key={channel} value={channel}>
-                {text.channelNames[channel]}
+                {t(`channelNames.${channel}`)}
               </option>
             ))}
           </optgroup>
@@ -50,11 +50,11 @@ export function PlotPicker() {
   const shown = setups.value;
   const isFull = shown.length >= MAX_PLOTS;
   return (
-    <Popup class="button is-small tool" title={text.picker.openHint} button={text.picker.open}>
+    <Popup class="button is-small tool" title={t("picker.openHint")} button={t("picker.open")}>
       {() => (
         <>
           <fieldset class="pair tight">
-            <legend>{text.picker.title}</legend>
+            <legend>{t("picker.title")}</legend>
             {PRESET_NAMES.map((preset) => {
               const isShown = shown.some((setup) => setup.key === preset);
               return (
@@ -65,21 +65,21 @@ export function PlotPicker() {
                     disabled={isFull && !isShown}
                     onChange={() => togglePreset(preset)}
                   />
-                  {text.plots.presets[preset]}
+                  {t(`plots.presets.${preset}`)}
                 </label>
               );
             })}
           </fieldset>
           <ChannelChoice
-            name={text.picker.add}
-            hint={text.picker.addHint}
+            name={t("picker.add")}
+            hint={t("picker.addHint")}
             value=""
             disabled={isFull}
             onChoose={addOwnPlot}
           />
-          {isFull && <p class="hint">{text.picker.full}</p>}
+          {isFull && <p class="hint">{t("picker.full")}</p>}
           <button type="button" class="button" onClick={resetPlots}>
-            {text.picker.reset}
+            {t("picker.reset")}
           </button>
         </>
       )}

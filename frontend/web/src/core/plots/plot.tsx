@@ -5,7 +5,7 @@ import { EquationButton } from "../equations/equation";
 import type { LaneSegments } from "../state/lanes";
 import { lawOf } from "../state/laws";
 import { session } from "../state/session";
-import { text } from "../text/en";
+import { t } from "../text/t";
 import { formatNumber } from "../units";
 import { CHANNELS, spanOf, unitOf } from "./channels";
 import { Chart } from "./chart";
@@ -25,9 +25,13 @@ import { hasOneValue, hasUnnamedTruth, tracesOf } from "./traces";
 const READING_MS = 120;
 
 export function titleOf({ preset, channels }: PlotSetup): string {
-  if (preset !== "own") return text.plots.presets[preset];
+  if (preset !== "own") return t(`plots.presets.${preset}`);
   const [first] = channels;
-  return first === undefined ? "" : text.plots.own(text.channelNames[first], channels.length - 1);
+  return first === undefined
+    ? ""
+    : channels.length - 1 > 0
+      ? t("plots.own", { first: t(`channelNames.${first}`), more: channels.length - 1 })
+      : t(`channelNames.${first}`);
 }
 
 function makeChart(host: HTMLElement, { preset, channels }: PlotSetup, traces: readonly Trace[]) {
@@ -105,7 +109,7 @@ function Chooser({ title, groups, shown, onChoose }: ChooserProps) {
     if (next.size > 0) onChoose(next);
   };
   return (
-    <fieldset class="choices" aria-label={text.plots.choose(title)}>
+    <fieldset class="choices" aria-label={t("plots.choose", { title })}>
       {groups.map(({ key, label }) => (
         <label key={key} class="chip">
           <input type="checkbox" checked={shown.has(key)} onChange={() => toggle(key)} />
@@ -143,11 +147,12 @@ export function Plot({ setup, isBasic, joint = null }: PlotProps) {
   ).traces;
   const readings = useRef(new Map<string, HTMLElement>()).current;
   useEffect(() => keepReadings(traces, readings), [traces]);
-  const title = joint === null ? titleOf(setup) : text.plots.ofJoint(joint, titleOf(setup));
+  const title =
+    joint === null ? titleOf(setup) : t("plots.ofJoint", { joint, title: titleOf(setup) });
   return (
     <section
       class={`plot ${isPhase ? "is-phase" : ""}`}
-      aria-label={text.plots.plotOf(title)}
+      aria-label={t("plots.plotOf", { title })}
       data-plot={joint === null ? setup.key : `${setup.key}.${joint}`}
     >
       <div class="plot-head">
@@ -190,9 +195,12 @@ const lawsWithout = computed(() => {
 function noteOf({ preset, channels }: PlotSetup, hasTruth: boolean): string | undefined {
   const [across] = channels;
   if (preset === "phase" && across !== undefined) {
-    return text.plots.phaseNote(text.channelNames[across], CHANNELS[across].unit);
+    return t("plots.phaseNote", {
+      across: t(`channelNames.${across}`),
+      unit: CHANNELS[across].unit,
+    });
   }
   const isUnused = lawsWithout.value && channels.some((channel) => channel.startsWith("estimate_"));
-  const unused = isUnused ? [text.plots.unusedEstimate(lawsWithout.value)] : [];
-  return (hasTruth ? [...unused, text.plots.disturbanceNote] : unused).join(" · ") || undefined;
+  const unused = isUnused ? [t("plots.unusedEstimate", { law: lawsWithout.value })] : [];
+  return (hasTruth ? [...unused, t("plots.disturbanceNote")] : unused).join(" · ") || undefined;
 }

@@ -4,7 +4,7 @@ import { useEffect, useRef } from "preact/hooks";
 import type { Joint } from "../api/types";
 import { shownJoints } from "../state/arm";
 import { isLive } from "../state/session";
-import { text } from "../text/en";
+import { t } from "../text/t";
 import { goTo, useBelow } from "../widgets/below";
 import { CursorHandles, CursorLines } from "./cursorlines";
 import { areCursorsOn, releaseCursors } from "./cursors";
@@ -60,8 +60,8 @@ function PlotsBelow({ list }: { list: RefObject<HTMLElement | null> }) {
     <button
       type="button"
       class="quiet strong plots-below"
-      title={text.plots.below(below.length)}
-      aria-label={text.plots.below(below.length)}
+      title={t("plots.below", { count: below.length })}
+      aria-label={t("plots.below", { count: below.length })}
       onClick={() => goTo(first)}
     >
       ↓ {below.length}
@@ -146,22 +146,22 @@ export function Plots({ isBasic }: { isBasic: boolean }) {
   return (
     <section
       class={["surface", "plots", ...look].join(" ")}
-      aria-label={text.plots.heading}
+      aria-label={t("plots.heading")}
       id="plots"
       tabIndex={-1}
     >
-      <h2 class="visually-hidden">{text.plots.heading}</h2>
+      <h2 class="visually-hidden">{t("plots.heading")}</h2>
       <Toolbar isBasic={isBasic} />
       <section
         key={isBasic ? "basic" : "all"}
         class="plots-scroll"
         ref={list}
-        aria-label={text.plots.list}
+        aria-label={t("plots.list")}
         // biome-ignore lint/a11y/noNoninteractiveTabindex: scrolling needs the keyboard
         tabIndex={0}
       >
         {isEmpty ? (
-          <p class="empty">{text.plots.none}</p>
+          <p class="empty">{t("plots.none")}</p>
         ) : (
           <Stage list={list} shown={shown} isBasic={isBasic} />
         )}

@@ -1,6 +1,6 @@
 /** Files of the plotted data. */
 import { session } from "../state/session";
-import { text } from "../text/en";
+import { t } from "../text/t";
 import { includeBounds, niceRange } from "./axes";
 import { boundsOf, CHANNELS, type ChannelName, spanOf, unitOf } from "./channels";
 import { columnsOf, writeCsv } from "./csv";
@@ -18,7 +18,7 @@ const SHARPNESS = 2;
 function fileName(what: string, ending: string): string {
   const { from, to } = shownSpan();
   const word = what.toLowerCase().replace(/[^a-z0-9]+/g, "-");
-  return `${text.save.file(word, from.toFixed(2), to.toFixed(2))}.${ending}`;
+  return `${t("save.file", { what: word, from: from.toFixed(2), to: to.toFixed(2) })}.${ending}`;
 }
 
 function download(content: Blob, name: string): void {
@@ -44,8 +44,8 @@ function drawTimePlot(title: string, { channels }: PlotSetup, traces: readonly T
   const events = session.peek()?.events ?? [];
   return {
     title,
-    x: { label: text.save.axis(text.save.time, "s"), from, to },
-    y: { label: text.save.axis(title, unitOf(channels)), from: bottom, to: top },
+    x: { label: t("save.axis", { label: t("save.time"), unit: "s" }), from, to },
+    y: { label: t("save.axis", { label: title, unit: unitOf(channels) }), from: bottom, to: top },
     curves,
     bounds,
     events: events.map(({ time_s, label }) => ({ time: time_s, label })),
@@ -58,7 +58,7 @@ function drawPhasePlane(title: string, setup: PlotSetup, traces: readonly Trace[
   const curves = traces.map((trace) => ({ trace, points: emptyPoints() }));
   const { x, y } = takePhase(curves, channels);
   const axis = (name: ChannelName, [from, to]: [number, number]) => ({
-    label: text.save.axis(text.channelNames[name], CHANNELS[name].unit),
+    label: t("save.axis", { label: t(`channelNames.${name}`), unit: CHANNELS[name].unit }),
     from,
     to,
   });
@@ -110,5 +110,5 @@ export const savePlotCsv = (title: string, { channels }: PlotSetup): void =>
   saveCsv(title, channels);
 
 export function saveWindowCsv(): void {
-  saveCsv(text.save.window, [...new Set(setups.peek().flatMap((setup) => setup.channels))]);
+  saveCsv(t("save.window"), [...new Set(setups.peek().flatMap((setup) => setup.channels))]);
 }

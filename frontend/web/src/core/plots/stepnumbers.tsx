@@ -2,7 +2,7 @@ import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import type { SessionEvent } from "../api/types";
 import { controllerAt, laneSegments } from "../state/lanes";
 import { session } from "../state/session";
-import { text } from "../text/en";
+import { t } from "../text/t";
 import { formatNumber, toDegrees } from "../units";
 import { Swatch } from "./legend";
 import { lineStyleOfLane } from "./linestyles";
@@ -52,23 +52,25 @@ export function StepNumbers({ event, nextS }: StepNumbersProps) {
   const missingS = Math.max(0, ...rows.map(({ metrics }) => metrics?.missingS ?? 0));
   return (
     <div class="floating small step-numbers" ref={panel} role="status">
-      <strong>{text.steps.heading(event.label, event.time_s.toFixed(2))}</strong>
+      <strong>{t("steps.heading", { event: event.label, time: event.time_s.toFixed(2) })}</strong>
       {isHeld ? (
         <table>
           <caption>
-            {Number.isFinite(untilS) ? text.steps.until(untilS.toFixed(2)) : text.steps.untilNow}
+            {Number.isFinite(untilS)
+              ? t("steps.until", { time: untilS.toFixed(2) })
+              : t("steps.untilNow")}
           </caption>
           <thead>
             <tr>
-              <th scope="col">{text.steps.lane}</th>
+              <th scope="col">{t("steps.lane")}</th>
               <th scope="col">
-                {text.steps.peak} <span class="unit">{text.compare.degrees}</span>
+                {t("steps.peak")} <span class="unit">{t("compare.degrees")}</span>
               </th>
               <th scope="col">
-                {text.steps.rms} <span class="unit">{text.compare.degrees}</span>
+                {t("steps.rms")} <span class="unit">{t("compare.degrees")}</span>
               </th>
               <th scope="col">
-                {text.steps.recovery} <span class="unit">{text.compare.seconds}</span>
+                {t("steps.recovery")} <span class="unit">{t("compare.seconds")}</span>
               </th>
             </tr>
           </thead>
@@ -83,7 +85,7 @@ export function StepNumbers({ event, nextS }: StepNumbersProps) {
                 <td>{degrees(metrics?.rms ?? Number.NaN)}</td>
                 <td>
                   {metrics?.recoveryS === null
-                    ? text.steps.notYet
+                    ? t("steps.notYet")
                     : formatNumber(metrics?.recoveryS, 3, 2)}
                 </td>
               </tr>
@@ -91,9 +93,11 @@ export function StepNumbers({ event, nextS }: StepNumbersProps) {
           </tbody>
         </table>
       ) : (
-        <p>{text.steps.gone}</p>
+        <p>{t("steps.gone")}</p>
       )}
-      {missingS > 0 && <p class="hint">{text.steps.missing(formatNumber(missingS, 3, 2))}</p>}
+      {missingS > 0 && (
+        <p class="hint">{t("steps.missing", { seconds: formatNumber(missingS, 3, 2) })}</p>
+      )}
     </div>
   );
 }

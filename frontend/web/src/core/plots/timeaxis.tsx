@@ -1,6 +1,6 @@
 import { useEffect, useRef } from "preact/hooks";
 import { session } from "../state/session";
-import { text } from "../text/en";
+import { t } from "../text/t";
 import { FONT, placeWords, timeStep } from "./axes";
 import { mayHaveZoomedSamples, zoomedEvent, zoomedSpan } from "./eventzoom";
 import { onFrame } from "./frame";
@@ -48,7 +48,7 @@ function drawTicks(canvas: HTMLCanvasElement, { from, to }: Span): void {
   const perStep = (step / (to - from)) * clientWidth;
   for (let index = Math.ceil(from / step - 1e-9); index * step <= to + 1e-9; index++) {
     const x = ((index * step - from) / (to - from)) * clientWidth;
-    const words = text.plots.timeTick(index * step);
+    const words = t("plots.timeTick", { seconds: Number((index * step).toFixed(4)) });
     const left = placeWords(x, context.measureText(words).width, clientWidth, perStep);
     if (left !== null) context.fillText(words, left, clientHeight / 2 + 1);
   }
@@ -79,7 +79,7 @@ export function TimeAxis() {
   const writtenAt = useRef(0);
   const publish = () => {
     const { from, to } = shownSpan();
-    const value = text.plots.spanValue(from.toFixed(2), to.toFixed(2));
+    const value = t("plots.spanValue", { from: from.toFixed(2), to: to.toFixed(2) });
     axis.current?.setAttribute("aria-valuetext", value);
     axis.current?.setAttribute("aria-valuenow", to.toFixed(2));
     const { newestTime } = shownRing();
@@ -96,10 +96,10 @@ export function TimeAxis() {
       class="time-axis"
       role="slider"
       tabIndex={0}
-      aria-label={text.plots.span}
+      aria-label={t("plots.span")}
       aria-valuemin={0}
       aria-valuenow={0}
-      title={text.plots.spanHint}
+      title={t("plots.spanHint")}
       onKeyDown={(event) => {
         const answer = KEYS[event.key];
         if (answer === undefined || event.ctrlKey || event.metaKey || event.altKey) return;
@@ -116,8 +116,8 @@ export function TimeAxis() {
 export function ZoomTitle() {
   void session.value;
   const event = zoomedEvent.value;
-  const words = event && text.zoom.title(event.time_s.toFixed(2), event.label);
-  const label = words === null ? text.zoom.none : mayHaveZoomedSamples() ? words : text.zoom.gone;
+  const words = event && t("zoom.title", { time: event.time_s.toFixed(2), event: event.label });
+  const label = words === null ? t("zoom.none") : mayHaveZoomedSamples() ? words : t("zoom.gone");
   return (
     <p class="zoom-title" title={words ?? undefined}>
       <span>{label}</span>

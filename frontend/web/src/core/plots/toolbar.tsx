@@ -1,5 +1,5 @@
 import { setWindow, WINDOWS_S, type WindowS, windowS } from "../state/preferences";
-import { text } from "../text/en";
+import { t } from "../text/t";
 import { useLiveText } from "../widgets/live";
 import { areCursorsOn, toggleCursors } from "./cursors";
 import { isZoomOn, toggleZoom } from "./eventzoom";
@@ -8,7 +8,7 @@ import { saveWindowCsv } from "./save";
 import { freeze, frozen, goLive, isFrozen, secondsBehind, showLength, zoom } from "./span";
 
 const ZOOM = 1.6;
-const readBehind = () => text.plots.behind(secondsBehind().toFixed(1));
+const readBehind = () => t("plots.behind", { seconds: secondsBehind().toFixed(1) });
 
 function WindowPicker() {
   const span = frozen.value;
@@ -17,7 +17,7 @@ function WindowPicker() {
     showLength(seconds);
   };
   return (
-    <fieldset class="line small window-picker" aria-label={text.plots.window}>
+    <fieldset class="line small window-picker" aria-label={t("plots.window")}>
       {WINDOWS_S.map((seconds) => {
         const isThis =
           span === null
@@ -32,7 +32,7 @@ function WindowPicker() {
               onChange={() => choose(seconds)}
               onClick={() => choose(seconds)}
             />
-            <span>{text.plots.seconds(seconds)}</span>
+            <span>{t("plots.seconds", { seconds })}</span>
           </label>
         );
       })}
@@ -52,23 +52,23 @@ function HoldButton() {
       <button
         type="button"
         class="button is-small tool is-primary"
-        title={text.plots.liveHint}
+        title={t("plots.liveHint")}
         onClick={goLive}
       >
         <svg viewBox="0 0 12 12" aria-hidden="true">
           <path d="M2 1l8 5-8 5zM10.4 1H12v10h-1.6z" />
         </svg>
-        {text.plots.live}
+        {t("plots.live")}
         <Behind />
       </button>
     );
   }
   return (
-    <button type="button" class="button is-small tool" title={text.plots.holdHint} onClick={freeze}>
+    <button type="button" class="button is-small tool" title={t("plots.holdHint")} onClick={freeze}>
       <svg viewBox="0 0 12 12" aria-hidden="true">
         <path d="M2 1h3v10H2zM7 1h3v10H7z" />
       </svg>
-      {text.plots.hold}
+      {t("plots.hold")}
     </button>
   );
 }
@@ -85,7 +85,7 @@ function ZoomButton({ name, factor, path }: ZoomButtonProps) {
       type="button"
       class="button is-small tool is-icon"
       aria-label={name}
-      title={`${name}. ${text.plots.gestures}`}
+      title={`${name}. ${t("plots.gestures")}`}
       onClick={() => zoom(factor)}
     >
       <svg viewBox="0 0 12 12" aria-hidden="true">
@@ -98,44 +98,44 @@ function ZoomButton({ name, factor, path }: ZoomButtonProps) {
 /** Commands of all plots; `isBasic` leaves out the selection of plots. */
 export function Toolbar({ isBasic }: { isBasic: boolean }) {
   return (
-    <div class="row tight plot-tools" role="toolbar" aria-label={text.plots.tools}>
-      <fieldset class="view-group" aria-label={text.plots.view}>
+    <div class="row tight plot-tools" role="toolbar" aria-label={t("plots.tools")}>
+      <fieldset class="view-group" aria-label={t("plots.view")}>
         <HoldButton />
         <button
           type="button"
           class="button is-small tool"
           aria-pressed={isZoomOn.value}
           aria-keyshortcuts="Z"
-          title={text.zoom.switchHint}
+          title={t("zoom.switchHint")}
           onClick={toggleZoom}
         >
-          {text.zoom.switch}
+          {t("zoom.switch")}
         </button>
       </fieldset>
       <span class="visually-hidden" role="status">
-        {isFrozen.value ? text.plots.held : ""}
+        {isFrozen.value ? t("plots.held") : ""}
       </span>
       {(!isBasic || areCursorsOn.value) && (
         <button
           type="button"
           class="button is-small tool"
           aria-pressed={areCursorsOn.value}
-          title={text.cursors.switchHint}
+          title={t("cursors.switchHint")}
           onClick={toggleCursors}
         >
           <svg viewBox="0 0 12 12" aria-hidden="true">
             <path d="M3 0h1.4v12H3zM7.6 0H9v12H7.6z" />
           </svg>
-          {text.cursors.switch}
+          {t("cursors.switch")}
         </button>
       )}
       {!isBasic && (
         <>
           <WindowPicker />
           <span class="zoom-group">
-            <ZoomButton name={text.plots.zoomOut} factor={ZOOM} path="M1 5.2h10v1.6H1z" />
+            <ZoomButton name={t("plots.zoomOut")} factor={ZOOM} path="M1 5.2h10v1.6H1z" />
             <ZoomButton
-              name={text.plots.zoomIn}
+              name={t("plots.zoomIn")}
               factor={1 / ZOOM}
               path="M1 5.2h4.2V1h1.6v4.2H11v1.6H6.8V11H5.2V6.8H1z"
             />
@@ -145,10 +145,10 @@ export function Toolbar({ isBasic }: { isBasic: boolean }) {
             <button
               type="button"
               class="button is-small tool"
-              title={text.save.allHint}
+              title={t("save.allHint")}
               onClick={saveWindowCsv}
             >
-              {text.save.csv}
+              {t("save.csv")}
             </button>
           </span>
         </>

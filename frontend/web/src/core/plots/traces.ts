@@ -1,6 +1,6 @@
 /** Converts the channels of a plot and the lanes of the session into curves. */
 import type { LaneSegments, Segment } from "../state/lanes";
-import { plotsText as text } from "../text/plots";
+import { t } from "../text/t";
 import { CHANNELS, type ChannelName } from "./channels";
 import {
   type LineStyle,
@@ -18,7 +18,7 @@ const WIDTHS = [3, 2, 1.25] as const;
 const REFERENCE: LineStyle = { colour: "reference", dash: DOTTED, width: 1.5 };
 const BOUND: LineStyle = { ...REFERENCE, dash: DASHED };
 
-const label = (channel: ChannelName): string => text.channelLabels[channel];
+const label = (channel: ChannelName): string => t(`channelLabels.${channel}`);
 
 /** A channel of a lane while there are samples of it. */
 function trace(channel: ChannelName, lane: number, lineStyle: LineStyle, name: string): Trace {
@@ -125,7 +125,7 @@ function compose(companion: ChannelName, own: readonly Trace[], cast: LaneSegmen
       return [{ ...trace(companion, 1, lineStyle, label(companion)), follows: leader.key }];
     }
     return cast.map((_, lane) => {
-      const truth = trace(companion, lane + 1, BOUND, text.plots.true);
+      const truth = trace(companion, lane + 1, BOUND, t("plots.true"));
       return lane === 0 ? truth : { ...truth, follows: `${companion}.1` };
     });
   }
@@ -182,7 +182,10 @@ export function tracesOf(
   const isMixed = laneCount > 1 && shown.length > 1;
   const named = shown.flatMap(({ label, traces }) =>
     isMixed
-      ? traces.map((curve) => ({ ...curve, label: text.plots.ofLane(curve.label, label) }))
+      ? traces.map((curve) => ({
+          ...curve,
+          label: t("plots.ofLane", { lane: curve.label, channel: label }),
+        }))
       : traces,
   );
   return [...named, ...common];

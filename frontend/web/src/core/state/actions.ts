@@ -13,7 +13,7 @@ import {
 } from "../api/errors";
 import { Edit } from "../api/operations";
 import type { Joint, SessionState } from "../api/types";
-import { text } from "../text/en";
+import { t } from "../text/t";
 import { chosenJoint } from "./arm";
 import { describeChange, isSame } from "./conflicts";
 import { explainRefusal } from "./refusal";
@@ -38,11 +38,11 @@ export function explain(error: unknown): string {
   if (error instanceof RefusedError) return explainRefusal(error);
   if (error instanceof NotExecutedError) {
     return error.status === null
-      ? text.connection.notCarriedOut
-      : text.connection.refused(error.status);
+      ? t("connection.notCarriedOut")
+      : t("connection.refused", { status: error.status });
   }
   const isUnknown = error instanceof UnansweredError && error.request !== null;
-  return isUnknown ? text.connection.stillUnknown : text.connection.unreachable;
+  return isUnknown ? t("connection.stillUnknown") : t("connection.unreachable");
 }
 
 /** As `explain`, but with the server's message, which names file, line, value and bound. */
@@ -109,6 +109,6 @@ export const showErrorIn = (problem: Signal<string>) => (error: unknown) => {
     error === null
       ? ""
       : error instanceof UnansweredError
-        ? text.connection.retrying
+        ? t("connection.retrying")
         : describeError(error);
 };

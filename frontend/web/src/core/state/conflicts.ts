@@ -1,7 +1,7 @@
 /** Detects settings that another user changed while this user was changing the same one. */
 import type { Configuration, SessionState } from "../api/types";
 import { quantityOf } from "../quantities";
-import { text } from "../text/en";
+import { t } from "../text/t";
 import { settings, settingsOf } from "./arm";
 import { effectQuantityOf } from "./kinds";
 import { titleOf } from "./laws";
@@ -59,10 +59,10 @@ function nameOf(path: string): string {
 }
 
 function describe([path, value]: [path: string, value: unknown]): string | null {
-  if (path === "law") return text.meanwhile.law(titleOf(String(value)));
+  if (path === "law") return t("meanwhile.law", { title: titleOf(String(value)) });
   const quantity = quantityOf(nameOf(path)) ?? effectQuantityOf(path);
   if (quantity === null || typeof value !== "number" || path.includes("coefficients")) return null;
-  return text.meanwhile.value(quantity.label, formatQuantity(value, quantity));
+  return t("meanwhile.value", { label: quantity.label, value: formatQuantity(value, quantity) });
 }
 
 /** Message that the value has changed, with the current value if the page has a name for it. */
@@ -71,7 +71,7 @@ export function describeChange(
   before: Configured | null,
   now: Configured | null,
 ): string {
-  if (now === null) return text.meanwhile.changed;
+  if (now === null) return t("meanwhile.changed");
   const known = new Map(
     listSections(path).flatMap((item) =>
       flatten(before && settingsOf(before).configuration[item], item),
@@ -83,5 +83,5 @@ export function describeChange(
     .map(describe)
     .filter((item) => item !== null);
   const list = changed.slice(0, MAX_LISTED).join(", ");
-  return `${text.meanwhile.changed} ${list === "" ? text.meanwhile.shown : text.meanwhile.now(list)}`;
+  return `${t("meanwhile.changed")} ${list === "" ? t("meanwhile.shown") : t("meanwhile.now", { list })}`;
 }

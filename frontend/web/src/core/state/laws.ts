@@ -3,7 +3,7 @@ import { computed, signal } from "@preact/signals";
 import { readLaws } from "../api/client";
 import type { Law, LawParameter, LawRow } from "../api/types";
 import type { Quantity } from "../quantities";
-import { lawsText as text } from "../text/controls";
+import { t } from "../text/t";
 
 const RETRY_MS = 2000;
 
@@ -28,8 +28,8 @@ export const titleOf = (name: Law): string => lawOf(name)?.title ?? name;
  */
 export function describeLaw(name: Law): string {
   const law = lawOf(name);
-  if (law?.problem) return text.laws.broken(name);
-  return law?.title ?? (laws.value.length > 0 ? text.laws.notInstalled(name) : name);
+  if (law?.problem) return t("laws.broken", { name });
+  return law?.title ?? (laws.value.length > 0 ? t("laws.notInstalled", { name }) : name);
 }
 
 /** The default comparison for a law: the first other law. */

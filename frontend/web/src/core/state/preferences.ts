@@ -1,6 +1,6 @@
 /** Preferences stored in this browser: theme, span of the plots, keys, and the user's name. */
 import { effect, signal } from "@preact/signals";
-import { controlText as text } from "../text/control";
+import { t } from "../text/t";
 
 export function readStored(key: string): string | null {
   try {
@@ -45,7 +45,7 @@ export const MAX_NAME_LENGTH = 40;
 
 export function defaultName(): string {
   const letter = () => String.fromCharCode(65 + Math.floor(26 * Math.random()));
-  return text.control.defaultName(letter() + letter() + letter());
+  return t("control.defaultName", { letters: letter() + letter() + letter() });
 }
 
 /** A name in the form that the server accepts. */

@@ -1,12 +1,11 @@
 /** The reason of a rejection, in the names and units of the page. */
 import type { RefusedError, Violation } from "../api/errors";
 import { type Quantity, quantityOf } from "../quantities";
-import { text } from "../text/en";
+import { t } from "../text/t";
 import { formatInput } from "../units";
 import { effectQuantityOf } from "./kinds";
 import { parameterOf } from "./laws";
 
-const words = text.refusal;
 const MAX_SHOWN = 3;
 
 export function explainRefusal({ message, violations }: RefusedError): string {
@@ -19,14 +18,18 @@ export function explainViolation(violation: Violation): string {
     quantityOf(violation.name) ?? effectQuantityOf(violation.name) ?? parameterOf(violation.name);
   if (quantity === null) return violation.message;
   const { label } = quantity;
-  if (violation.finding) return words.finding(label, violation.finding);
-  if (violation.value === null) return words.missing(label);
+  if (violation.finding) return t("refusal.finding", { name: label, finding: violation.finding });
+  if (violation.value === null) return t("refusal.missing", { name: label });
   const limits = describeLimits(violation.limits, quantity);
   if (typeof violation.value === "number" && limits !== null) {
-    return words.outOfRange(label, formatQuantity(violation.value, quantity), limits);
+    return t("refusal.outOfRange", {
+      name: label,
+      value: formatQuantity(violation.value, quantity),
+      bound: limits,
+    });
   }
   return limits === null && quantity.factor === undefined
-    ? words.wrong(label, violation.bound)
+    ? t("refusal.wrong", { name: label, bound: violation.bound })
     : violation.message;
 }
 
@@ -38,13 +41,13 @@ export function formatQuantity(value: number, { unit, factor = 1 }: Quantity): s
 function describeLimits(limits: Violation["limits"], quantity: Quantity): string | null {
   const { ge, gt, le, lt } = limits ?? {};
   if (ge !== undefined && le !== undefined) {
-    return words.between(
-      formatQuantity(ge, { ...quantity, unit: "" }),
-      formatQuantity(le, quantity),
-    );
+    return t("refusal.between", {
+      least: formatQuantity(ge, { ...quantity, unit: "" }),
+      most: formatQuantity(le, quantity),
+    });
   }
-  if (ge !== undefined) return words.atLeast(formatQuantity(ge, quantity));
-  if (gt !== undefined) return words.moreThan(formatQuantity(gt, quantity));
-  if (le !== undefined) return words.atMost(formatQuantity(le, quantity));
-  return lt === undefined ? null : words.lessThan(formatQuantity(lt, quantity));
+  if (ge !== undefined) return t("refusal.atLeast", { bound: formatQuantity(ge, quantity) });
+  if (gt !== undefined) return t("refusal.moreThan", { bound: formatQuantity(gt, quantity) });
+  if (le !== undefined) return t("refusal.atMost", { bound: formatQuantity(le, quantity) });
+  return lt === undefined ? null : t("refusal.lessThan", { bound: formatQuantity(lt, quantity) });
 }

@@ -7,13 +7,12 @@ export const actuatorsText = {
     loading: "Loading the actuators …",
     open: "Open session",
     opening: "Opening …",
-    compiling: (title: string, seconds: number) =>
-      `Compiling ${title}${seconds < 1 ? "" : `, ${seconds.toFixed(0)} s`} …`,
+    compiling: "Compiling {{title}} …",
+    compilingFor: "Compiling {{title}}, {{seconds}} s …",
     openHint: "The first session compiles the control loop: about 10 s, up to a minute, once.",
-    facts: (low: string, high: string, torque: string) =>
-      `Stiffness ${low} to ${high} N·m/rad, motor torque up to ${torque} N·m.`,
-    fixed: (sigma: string, torque: string) =>
-      `Stiffness ${sigma} N·m/rad, without a stiffness motor; motor torque up to ${torque} N·m.`,
+    facts: "Stiffness {{low}} to {{high}} N·m/rad, motor torque up to {{torque}} N·m.",
+    fixed:
+      "Stiffness {{sigma}} N·m/rad, without a stiffness motor; motor torque up to {{torque}} N·m.",
     paper: "Figures of the paper and exercises run with this actuator only.",
     parameters: "Parameters",
     heads: ["Parameter", "Plant", "Model", "Unit", "Source"],
@@ -25,8 +24,7 @@ export const actuatorsText = {
     value: "Simulated plant",
     published: "Published figures",
     unpublished: "No published figures with a source are known.",
-    comparison: (measured: string, published: string, deviation: string) =>
-      `simulated ${measured}, published ${published}, deviation ${deviation}`,
+    comparison: "simulated {{measured}}, published {{published}}, deviation {{deviation}}",
     torque: "Torque over deflection",
     stiffness: "Stiffness over deflection",
     workspace: "Torque–stiffness workspace",
@@ -35,9 +33,9 @@ export const actuatorsText = {
     deflection: "Deflection [deg]",
     torqueAxis: "Torque [N·m]",
     stiffnessAxis: "σ [N·m/rad]",
-    summary: (what: string, count: number) =>
-      `${what}: ${count} ${count === 1 ? "curve" : "curves"}`,
-    presets: (sigmas: string) => `Presets at σ = ${sigmas} N·m/rad, from the lowest curve up.`,
+    summary_one: "{{what}}: {{count}} curve",
+    summary_other: "{{what}}: {{count}} curves",
+    presets: "Presets at σ = {{sigmas}} N·m/rad, from the lowest curve up.",
     pdf: "PDF",
     json: "JSON",
   },

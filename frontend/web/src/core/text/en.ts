@@ -1,4 +1,4 @@
-/** All texts of the page, by area. */
+/** The English texts of the page, by area. Other languages have the same keys. */
 import { actuatorsText } from "./actuators";
 import { armText } from "./arm";
 import { benchText } from "./bench";
@@ -11,16 +11,19 @@ import { jobsText, tuningText } from "./jobs";
 import { keysText, sceneText, scriptText } from "./lab";
 import { leaderboardText } from "./leaderboard";
 import { learningText } from "./learning";
+import { measuredText } from "./measured";
+import { metricsText } from "./metrics";
 import { numbersText } from "./numbers";
 import { pageText } from "./page";
 import { plotsText } from "./plots";
 import { rankingText } from "./ranking";
 import { realismText } from "./realism";
+import { replayText } from "./replay";
 import { runsText } from "./runs";
 import { stabilityText } from "./stability";
 import { studiesText } from "./studies";
 
-export const text = {
+export const en = {
   ...pageText,
   ...numbersText,
   ...actuatorsText,
@@ -47,4 +50,7 @@ export const text = {
   ...scriptText,
   ...studiesText,
   ...tuningText,
+  measured: measuredText,
+  metrics: metricsText,
+  replay: replayText,
 } as const;

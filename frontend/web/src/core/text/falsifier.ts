@@ -29,6 +29,7 @@ export const falsifierText = {
     costHint: "A fault has a higher cost than any error or recovery time",
     loads: "Search space: loads",
     kind: "Kind of load",
+    term: "{{kind}} of at most {{torque}} N·m on {{bodies}}",
     kinds: { step: "Step", pulse: "Pulse", sine: "Sine" },
     onBodies: "On",
     bodies: { link: "link", motor1: "motor 1", motor2: "motor 2" },
@@ -37,9 +38,9 @@ export const falsifierText = {
     onsetFrom: "Onset from",
     ownFrom: { pulse: "Length from", sine: "Frequency from" },
     remove: "Remove",
-    removeLabel: (number: number) => `Remove load ${number}`,
+    removeLabel: "Remove load {{number}}",
     add: "Add a load",
-    load: (number: number) => `Load ${number}`,
+    load: "Load {{number}}",
     off: "Model error of inertia and spring",
     offHint:
       "Largest deviation of the link's inertia and the spring's stiffness from the nominal model, either sign; 0: exact model",
@@ -48,22 +49,19 @@ export const falsifierText = {
     seed: "Seed",
     duration: "Length of a run",
     search: "Search",
-    state: (done: number, total: number) =>
-      `${done.toLocaleString("en")} of at most ${total.toLocaleString("en")} runs`,
-    progress: (law: string) => `Progress of the search against ${law}`,
+    state: "{{done, number}} of at most {{total, number}} runs",
+    progress: "Progress of the search against {{law}}",
     worstSoFar: "Worst so far",
     simplest: "Simplified load with the same failure",
     nothingYet: "No result yet: compiling takes a few seconds.",
-    found: (law: string, outcome: string) => `${law}: ${outcome}`,
-    foundAt: (run: number, runs: number, seed: number) =>
-      `found at run ${run.toLocaleString("en")} of ${runs.toLocaleString("en")}, seed ${seed}`,
-    neighborhood: (failed: number, runs: number, share: string) =>
-      `${failed} of ${runs} random loads near it fail equally: ${share}`,
+    found: "{{law}}: {{outcome}}",
+    foundAt: "found at run {{run, number}} of {{runs, number}}, seed {{seed}}",
+    neighborhood: "{{failed}} of {{runs}} random loads near it fail equally: {{share}}",
     neighborhoodHint:
       "Each parameter of the load is sampled within 5 % of its range. A small share means an isolated case: slightly different loads do not fail. Equally: a fault, or, if there is none, at least 95 % of the cost. 95 % interval",
-    lasts: (duration: string) => `run length ${duration} s`,
+    lasts: "run length {{duration}} s",
     perturbed: "With",
-    steps: (count: number) => `Simplification: ${count} steps`,
+    steps: "Simplification: {{count}} steps",
     noProof: "No fault found is no proof of stability: it only describes this search.",
     name: "Save as",
     nameHint: "1 to 64 letters, digits, - or _; any law can be run under it by this name",
@@ -82,17 +80,14 @@ export const falsifierText = {
       stiffness: { title: "Stiffness error", unit: "N·m/rad" },
     },
     crosses: "× the run ended in a fault",
-    secondTick: (timeS: number) => `${Number(timeS.toFixed(3))} s`,
+    secondTick: "{{timeS}} s",
     laws: "Laws under this load",
     choice: "Choose laws",
     all: "All laws",
     few: "First two laws",
-    held: (held: number, count: number) =>
-      held === count
-        ? count === 1
-          ? "No fault."
-          : `None of ${count} laws had a fault.`
-        : `${held} of ${count} laws had no fault.`,
+    noFault: "No fault.",
+    noFaults: "None of {{laws}} laws had a fault.",
+    held: "{{held}} of {{laws}} laws had no fault.",
     lawsHint:
       "Select a law to show or hide it. The load is the worst case of the searched law only; the other laws may have worse cases of their own.",
     columns: {
@@ -105,11 +100,11 @@ export const falsifierText = {
       see: "3D",
     },
     whole: "without a fault",
-    fault: (fault: string, timeS: string) => `${fault}, ${timeS} s`,
+    fault: "{{fault}}, {{timeS}} s",
     never: "not recovered",
-    draw: (law: string) => `Show ${law}`,
+    draw: "Show {{law}}",
     see: "Open",
-    seeLabel: (law: string) => `Open ${law} under this load in 3D`,
+    seeLabel: "Open {{law}} under this load in 3D",
     seeHint: "A private session of this law under this load, compared with the searched law",
   },
-};
+} as const;

@@ -9,16 +9,15 @@ export const jobsText = {
       failed: "failed",
       interrupted: "interrupted; completed runs are kept",
     },
-    rate: (rate: number) =>
-      `${rate < 10 ? rate.toFixed(1) : Math.round(rate).toLocaleString("en")} runs/s`,
+    rate: "{{rate}} runs/s",
     compiling: "compiling …",
-    left: (time: string) => `${time} left`,
+    left: "{{time}} left",
     cancel: "Cancel",
     cancelHint: "Stop after the runs in progress; completed runs are kept",
     example: "Example",
     exampleHint: "A finished result that comes with the lab; your first result replaces it",
   },
-};
+} as const;
 
 /** Tuning a law. */
 export const tuningText = {
@@ -43,12 +42,10 @@ export const tuningText = {
       failed: "Failed.",
       interrupted: "Interrupted; best result so far.",
     },
-    progress: (law: string, tried: number, budget: number) =>
-      `${law}: ${Math.max(0, tried - 1)} of ${budget} candidates`,
+    progress: "{{law}}: {{tried}} of {{budget}} candidates",
     first: "Compiling the law takes a few seconds.",
     curve: "Best cost",
-    curveSummary: (first: string, best: string, tried: number) =>
-      `Best cost over ${tried} candidates: from ${first} down to ${best}`,
+    curveSummary: "Best cost over {{tried}} candidates: from {{first}} down to {{best}}",
     best: "best so far",
     each: "each candidate",
     candidates: "candidates",
@@ -58,10 +55,10 @@ export const tuningText = {
     onValidation: "On the validation trials",
     onTraining: "On the training trials",
     resultHeads: ["values", "cost", "held", "rms error, °", "stiffness error, %", "noise, N·m/s"],
-    held: (held: number, trials: number) => `${held} of ${trials}`,
+    held: "{{held}} of {{trials}}",
     tooNoisy: "too noisy",
-    noiseLimit: (limit: string) =>
-      `Noise: total variation of u1 at rest, at most ${limit} N·m/s, that of NDOBC with the declared gains.`,
+    noiseLimit:
+      "Noise: total variation of u1 at rest, at most {{limit}} N·m/s, that of NDOBC with the declared gains.",
     parameter: "Parameter",
     before: "before",
     tuned: "best",
@@ -70,7 +67,7 @@ export const tuningText = {
     useHint: "Applies the best parameters of the law to this session",
     used: "Applied to this session.",
     notBetter: "No better parameters than the current ones were found.",
-    otherLaw: (law: string) => `The parameters take effect when ${law} controls this session.`,
+    otherLaw: "The parameters take effect when {{law}} controls this session.",
     save: "Save as file",
     saveHint: "A parameter file (TOML) with its measured results",
   },

@@ -3,7 +3,7 @@ export const leaderboardText = {
   leaderboard: {
     title: "Leaderboard",
     lead: "Submit a control law as a Python file. It runs on hidden trials that are sampled like those of the ranking.",
-    season: (began: string, suite: string) => `This season began on ${began}, protocol ${suite}.`,
+    season: "This season began on {{began}}, protocol {{suite}}.",
     loading: "Loading the leaderboard …",
     empty: "No law has been submitted in this season yet",
     emptyHint:
@@ -46,60 +46,55 @@ export const leaderboardText = {
       },
       entered: { name: "Measured", hint: "When, in your time" },
     },
-    percent: (share: number) => `${(100 * share).toFixed(1)} %`,
-    interval: (low: string, high: string) => `${low}–${high}`,
+    percent: "{{share}} %",
+    interval: "{{low}}–{{high}}",
     intervalHint: "95 % interval of the success rate (Wilson)",
-    by: (author: string) => `by ${author}`,
+    by: "by {{author}}",
     submittedLaw: "submitted",
     baseline: "baseline",
     baselineHint: "A law of the lab, compiled, with the parameters of the ranking",
     notMeasured: "not measured in this season yet",
-    trialsHeld: (held: number, of: number) => `${held} of ${of} held`,
-    measuredWith: (when: string, version: string) => `${when}, with SVSA Lab ${version}`,
+    trialsHeld: "{{held}} of {{of}} held",
+    measuredWith: "{{when}}, with SVSA Lab {{version}}",
     ended: "ended early",
-    degrees: (error: string) => `${error}°`,
-    rms: (error: string) => `${error}° rms`,
-    see: (name: string) => `${name}, worst run in 3D:`,
-    seeHint: (name: string) => `${name}: see this run in 3D, compared with NDOBC`,
+    degrees: "{{error}}°",
+    rms: "{{error}}° rms",
+    see: "{{name}}, worst run in 3D:",
+    seeHint: "{{name}}: see this run in 3D, compared with NDOBC",
     note: "All laws run on the same trials, so a difference between two laws is more certain than their intervals suggest. Compare the time per tick within one kind of entry only. Repeated submissions reveal something about a season's trials.",
     submit: "Submit a law",
-    submitHint: (runs: number) =>
-      `${runs} runs in an isolated process; takes some minutes. The same text has one permanent entry.`,
+    submitHint:
+      "{{runs}} runs in an isolated process; takes some minutes. The same text has one permanent entry.",
     name: "Name of the law",
     author: "Author (optional)",
     law: "Defines law(time_s, reference, x, w), or build(model) that returns one; returns u1 and u2 in N·m. The parameters measured and applied are optional.",
     send: "Submit",
     example: "Insert an example",
-    known: (name: string | undefined) =>
-      name === undefined
-        ? "This text already has an entry."
-        : `This text already has an entry: ${name}.`,
-    measuring: (title: string) => `Measuring: ${title}`,
-    measured: (title: string) => `Measured: ${title}`,
+    known: "This text already has an entry.",
+    knownAs: "This text already has an entry: {{name}}.",
+    measuring: "Measuring: {{title}}",
+    measured: "Measured: {{title}}",
     labFollows: "The entry is saved. The installed laws are now measured on the same season.",
-    runs: (done: number, total: number) => `${done} of ${total || "…"} runs`,
+    runs: "{{done}} of {{total}} runs",
     failed: "The submission failed.",
     failedHint: "Fix the law and submit it again: no entry was saved.",
     notIsolated: "Submission is disabled: this machine cannot isolate submitted laws.",
     observer: "Observers cannot submit: join as a student.",
     lab: "Installed laws",
-    missing: (count: number) =>
-      count === 1
-        ? "One installed law is not measured in this season yet."
-        : `${count} installed laws are not measured in this season yet. They are measured after the next submission.`,
+    missing_one: "One installed law is not measured in this season yet.",
+    missing_other:
+      "{{count}} installed laws are not measured in this season yet. They are measured after the next submission.",
     measureLab: "Measure them now",
     script: "From the command line",
     scriptHint: "On the machine that runs the lab, or at home for practice:",
     command: "svsa ranking submit law.py\nsvsa ranking submit law.py --practice",
     back: "Leaderboard",
     unknown: "Entry not found in this season.",
-    worstOf: (name: string) => `Worst run of ${name}`,
-    standing: (rank: number, success: string) => `rank ${rank}, ${success} of the trials held`,
-    comparison: (law: string, isInstalled: boolean) =>
-      `Worst of the public scenarios, compared with ${law} on the same one; the season's hidden trials are not shown. ${
-        isInstalled
-          ? "Simulated again for this view."
-          : "The law does not run again: the torques recorded at the measurement are replayed."
-      }`,
+    worstOf: "Worst run of {{name}}",
+    standing: "rank {{rank}}, {{success}} of the trials held",
+    comparison:
+      "Worst of the public scenarios, compared with {{law}} on the same one; the season's hidden trials are not shown. {{source}}",
+    again: "Simulated again for this view.",
+    replayed: "The law does not run again: the torques recorded at the measurement are replayed.",
   },
-};
+} as const;

@@ -4,10 +4,10 @@ export const measuredText = {
   whole: "Whole run",
   start: "From the start",
   /** From, in seconds, of an open window. */
-  since: (what: string, from: string) => `${what}, since ${from} s`,
+  since: "{{what}}, since {{from}} s",
   /** From and to, in seconds. */
-  during: (what: string, from: string, to: string) => `${what}, ${from}–${to} s`,
-  controlled: (lanes: readonly string[], what: string) => `${lanes.join(" / ")}: ${what}`,
+  during: "{{what}}, {{from}}–{{to}} s",
+  controlled: "{{lanes}}: {{what}}",
   steadyStateHint: "rms position error over the last 0.5 s of the window",
   loadEnded: "No steady-state error under load: the load ended before.",
   tooShort: "The window is shorter than 1 s.",

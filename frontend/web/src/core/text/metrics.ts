@@ -65,8 +65,7 @@ export const metricsText = {
     undisturbed: "Not defined: no load was added or removed at the start of the window.",
     outside: "Not yet: the error has not stayed within 2 % of its peak for 0.5 s.",
     unmoved: "Not defined: the stiffness error never exceeded 0.01 N·m/rad.",
-    lost: (seconds: string) =>
-      `Recovered after ${seconds} s, but the steady-state error is above 2 % of the peak: the load changes.`,
+    lost: "Recovered after {{seconds}} s, but the steady-state error is above 2 % of the peak: the load changes.",
     unreached: "Not yet: the output has not reached 90 % of the step.",
     unsettled: "Not yet: the output has not stayed within 2 % of the step for 0.5 s.",
     moving:

@@ -2,18 +2,17 @@
 export const numbersText = {
   numbers: {
     missing: "no number.",
-    noNumber: (typed: string) => `“${typed}” is not a number.`,
-    grouped: (typed: string) =>
-      `“${typed}” has more than one separator or a space. Type only the decimal sign.`,
-    ambiguous: (typed: string, whole: string, decimal: string) =>
-      `“${typed}” can mean ${whole} or ${decimal}. Type one of these.`,
-    tooLarge: (typed: string) => `“${typed}” is too large for a number.`,
-    tooSmall: (typed: string) => `“${typed}” is too close to zero for a number.`,
-    noInteger: (value: string) => `${value} is not a whole number.`,
-    inUnit: (unit: string) => `in ${unit}`,
+    noNumber: "“{{typed}}” is not a number.",
+    grouped: "“{{typed}}” has more than one separator or a space. Type only the decimal sign.",
+    ambiguous: "“{{typed}}” can mean {{whole}} or {{decimal}}. Type one of these.",
+    tooLarge: "“{{typed}}” is too large for a number.",
+    tooSmall: "“{{typed}}” is too close to zero for a number.",
+    noInteger: "{{value}} is not a whole number.",
+    inUnit: "in {{unit}}",
     number: "Number",
-    rejected: (name: string, reason: string, isInteger: boolean, bounds: string) =>
-      `${name}: ${reason} Required: a ${isInteger ? "whole number" : "number"}${bounds && ` ${bounds}`}. The value is unchanged.`,
+    rejected: "{{name}}: {{reason}} Required: a number{{bounds}}. The value is unchanged.",
+    rejectedInteger:
+      "{{name}}: {{reason}} Required: a whole number{{bounds}}. The value is unchanged.",
     sign: "Change the sign",
   },
 } as const;

@@ -1,26 +1,17 @@
 /** The ranking: every law on the same trials and fixed scenarios. */
-const fixedHint = (what: string) =>
-  `${what}, at both signs and 8 phases of the motion: median / worst peak position error in degrees, and faults. Opens the worst run`;
-
 export const rankingText = {
   ranking: {
     title: "Ranking",
     lead: "Every law on the same plant, torque limits, noise and loads, tuned with one budget, cost and noise limit. The main number is the share of test trials that held.",
     loading: "Loading the results …",
     law: "Law",
-    declared: (title: string) => `${title}, declared gains`,
+    declared: "{{title}}, declared gains",
     table: "Success rates, rank and fixed scenarios: one row per law",
     tableHint:
       "A heading sorts by its column, a law shows its details below, a fixed scenario opens its worst run",
-    provenance: (of: {
-      criterion: string;
-      duration_s: number;
-      protocol: string;
-      seed: number;
-      trials: number;
-      versions: readonly string[];
-    }) =>
-      `Held: ${of.criterion}. ${of.trials} trials of ${of.duration_s} s of each family, seed ${of.seed}, protocol ${of.protocol}, simulated with SVSA Lab ${of.versions.join(" and ")}. Rows whose success rates do not differ significantly share a rank (McNemar's exact test with Holm's correction, 5 %).`,
+    provenance:
+      "Held: {{criterion}}. {{trials}} trials of {{duration}} s of each family, seed {{seed}}, protocol {{protocol}}, simulated with SVSA Lab {{versions}}. Rows whose success rates do not differ significantly share a rank (McNemar's exact test with Holm's correction, 5 %).",
+    and: " and ",
     legend: "What each column shows",
     columns: {
       rank: {
@@ -41,19 +32,19 @@ export const rankingText = {
       },
       rig: {
         name: "Paper's load: peak error, °",
-        hint: fixedHint("2 N·m on link and motors, rig, σ = 15"),
+        hint: "2 N·m on link and motors, rig, σ = 15, at both signs and 8 phases of the motion: median / worst peak position error in degrees, and faults. Opens the worst run",
       },
       removal: {
         name: "Load removal: peak error, °",
-        hint: fixedHint("The same load removed after 3 s"),
+        hint: "The same load removed after 3 s, at both signs and 8 phases of the motion: median / worst peak position error in degrees, and faults. Opens the worst run",
       },
       mass: {
         name: "3 kg: peak error, °",
-        hint: fixedHint("3 kg on an arm of 68 mm, rig, σ = 15"),
+        hint: "3 kg on an arm of 68 mm, rig, σ = 15, at both signs and 8 phases of the motion: median / worst peak position error in degrees, and faults. Opens the worst run",
       },
       unmodelled: {
         name: "Unmodelled effects: peak error, °",
-        hint: fixedHint("Paper's load with friction, a lag of 2 ms and the link's weight"),
+        hint: "Paper's load with friction, a lag of 2 ms and the link's weight, at both signs and 8 phases of the motion: median / worst peak position error in degrees, and faults. Opens the worst run",
       },
       load: {
         name: "Largest load held, N·m",
@@ -64,31 +55,26 @@ export const rankingText = {
         hint: "Total variation of u1 at rest under the rig's noise, mean of eight runs",
       },
     },
-    success: (value: number, low: number, high: number) =>
-      `${value.toFixed(1)} (${low.toFixed(1)}–${high.toFixed(1)})`,
-    p: (value: number | null) =>
-      value === null ? "–" : value < 0.001 ? "< 0.001" : value.toPrecision(2),
+
     fault: "fault",
-    withFaults: (pair: string, faults: number, runs: number) => `${pair}, ${faults} of ${runs}`,
-    see: (law: string, column: string) => `${law}, ${column}: open the worst run in the lab`,
-    seeLabel: (law: string, column: string, value: string) =>
-      `${law}, ${column}: ${value}; open the worst run`,
+    withFaults: "{{pair}}, {{faults}} of {{runs}}",
+    see: "{{law}}, {{column}}: open the worst run in the lab",
+    seeLabel: "{{law}}, {{column}}: {{value}}; open the worst run",
     chooseHint: "Show its details below",
     pareto: "Position error against stiffness error",
     paretoHint: "Medians over the trials of family A; the area is the median of rms u1.",
     positionAxis: "rms position error, °",
     stiffnessAxis: "rms stiffness error, N·m/rad",
-    point: (law: string, position: string, stiffness: string, torque: string) =>
-      `${law}: ${position}°, ${stiffness} N·m/rad, ${torque} N·m`,
+    point: "{{law}}: {{position}}°, {{stiffness}} N·m/rad, {{torque}} N·m",
     source: "Source:",
-    doi: (doi: string) => `doi:${doi}`,
+    doi: "doi:{{doi}}",
     variants: {
       tuned: "Tuned.",
       declared: "The gains declared for the paper, which prints none.",
       default: "Default parameters, not tuned.",
     },
-    tuned: (candidates: number, trials: number, validation: number, seed: number) =>
-      `Tuned by CMA-ES: ${candidates} candidates on ${trials} training trials, the best ten on ${validation} validation trials, seed ${seed}.`,
+    tuned:
+      "Tuned by CMA-ES: {{candidates}} candidates on {{trials}} training trials, the best ten on {{validation}} validation trials, seed {{seed}}.",
     scenarios: "Fixed scenarios, median / worst over signs and phases; a name opens the worst run",
     scenarioHeads: [
       "Scenario",
@@ -98,9 +84,9 @@ export const rankingText = {
       "Held",
     ],
     seeWorst: "Open the worst run in the lab",
-    ofRuns: (held: number, runs: number) => `${held} of ${runs}`,
+    ofRuns: "{{held}} of {{runs}}",
     trials: "Trials, median / 90 % quantile",
-    family: (name: string) => `Family ${name}`,
+    family: "Family {{name}}",
     metrics: {
       rms_position_error_rad: "rms position error, °",
       peak_position_error_rad: "Peak position error, °",
@@ -114,4 +100,4 @@ export const rankingText = {
       torque1_variation_nm_per_s: "Total variation of u1, N·m/s",
     },
   },
-};
+} as const;

@@ -1,9 +1,7 @@
 /** Texts of the page of an exported run; its plots use those of the live page. */
 import { measuredText } from "./measured";
-import { plotsText } from "./plots";
 
-export const text = {
-  channelLabels: plotsText.channelLabels,
+export const replayText = {
   name: "SVSA Lab",
   recorded: "recorded run",
   broken: "This file is damaged or incomplete: the run in it cannot be read.",
@@ -21,17 +19,17 @@ export const text = {
     pause: "Pause",
     keys: "Space plays and pauses. Arrows move by a frame, with Shift by a second. Home and End move to the ends",
     time: "Time",
-    of: (duration: string) => `of ${duration}`,
+    of: "of {{duration}}",
     speed: "Speed",
-    times: (factor: number) => `${factor}×`,
+    times: "{{factor}}×",
     whole: "Whole run",
     wholeHint: "Show the whole run in the plots (double click on a plot)",
     zoomIn: "Zoom in",
     zoomOut: "Zoom out",
-    seconds: (seconds: number) => `${seconds.toFixed(2)} s`,
+    seconds: "{{seconds}} s",
   },
   numbers: {
-    heading: (window: string) => `Errors · ${window}`,
+    heading: "Errors · {{window}}",
     hint: "Computed from every sample of this window, in which no setting changed",
     lane: "Lane",
     rms: measuredText.names.rms,
@@ -45,22 +43,19 @@ export const text = {
   events: {
     heading: "Events",
     none: "No events",
-    jump: (time: string, label: string) => `Go to ${time} ${label}`,
+    jump: "Go to {{time}} {{label}}",
   },
   about: {
     open: "About this run",
     close: "Close",
     version: "version",
-    drawn: (stride: number) =>
-      stride === 1
-        ? "The curves show every sample of the run."
-        : `The curves show one of every ${stride} samples, and the peaks between them.`,
+    everySample: "The curves show every sample of the run.",
+    drawn: "The curves show one of every {{stride}} samples, and the peaks between them.",
     empty: "none",
-    more: (count: number) => `and ${count} more`,
+    more: "and {{count}} more",
   },
   plots: {
-    ...plotsText.plots,
     hint: "Click: go to this time. Drag: zoom in. Double click: whole run.",
-    choose: (title: string) => `${title}: which one`,
+    choose: "{{title}}: which one",
   },
 } as const;

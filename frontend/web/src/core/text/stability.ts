@@ -5,7 +5,7 @@ export const stabilityText = {
     slowest: "Slowest pole",
     slowestHint:
       "Largest real part of the closed-loop poles at rest, in continuous time, with the true plant and the observer; stable below 0",
-    rate: (value: string) => `${value} rad/s`,
+    rate: "{{value}} rad/s",
     damping: "Smallest damping ratio",
     dampingHint: "Smallest −Re s / |s| of these poles: 1 without oscillation",
     gain: "Error per unit load rate",
@@ -14,15 +14,15 @@ export const stabilityText = {
     l1: "… L1 gain",
     l1Hint:
       "Largest error of the linear loop under any torque on the link that changes by at most 1 N·m each second, for small motions. Theorem 1 is local: this is no ISS gain of the nonlinear loop",
-    gainValue: (degrees: string) => `${degrees}° per N·m/s`,
+    gainValue: "{{degrees}}° per N·m/s",
     noGain: "not rejected",
     floor: "… at least",
     floorHint: "Lower bound with these poles, for any observer bandwidth",
-    fastest: (sensing: string) => `Fastest observer, ${sensing}`,
+    fastest: "Fastest observer, {{sensing}}",
     fastestHint:
       "The largest β with which the sampled loop is stable, with its delay and its estimated velocities",
     anyObserver: "over 1000 rad/s",
-    fastestLine: (value: string) => `β < ${value}`,
+    fastestLine: "β < {{value}}",
     sensing: { session: "here", rig: "on the rig" },
     ranges: "Stable parameter range",
     rangesHint:
@@ -30,20 +30,20 @@ export const stabilityText = {
     parameter: "True / nominal",
     range: "stable",
     now: "now",
-    times: (symbol: string) => `${symbol} ×`,
-    between: (low: string, high: string) => `${low} – ${high}`,
-    upTo: (high: string) => `up to ${high}`,
-    from: (low: string) => `from ${low}`,
+    times: "{{symbol}} ×",
+    between: "{{low}} – {{high}}",
+    upTo: "up to {{high}}",
+    from: "from {{low}}",
     all: "all",
     unstableAsItIs: "Unstable even with an exact model.",
-    margins: (sensing: string) => `Margins of the sampled loop, ${sensing}`,
-    noMargins: (sensing: string) => `The sampled loop is unstable, ${sensing}: no margins.`,
+    margins: "Margins of the sampled loop, {{sensing}}",
+    noMargins: "The sampled loop is unstable, {{sensing}}: no margins.",
     modulus: "Modulus margin",
     modulusHint: "1/‖S‖∞ of the sampled loop, opened at both torques: 1 at best, 0 at instability",
     delay: "Delay margin",
     delayHint:
       "Additional delay of both torques, of which the observer is not informed, that makes the loop unstable",
-    milliseconds: (value: string) => `${value} ms`,
+    milliseconds: "{{value}} ms",
     anyDelay: "any delay",
     gain1: "Gain margin of u1",
     gain2: "Gain margin of u2",
@@ -51,7 +51,7 @@ export const stabilityText = {
     joint: "Joint model error",
     jointHint:
       "The smallest error of M, B1, B2 and Ks together that a search found to make the loop unstable: root of the sum of squares, and the four errors, true over nominal",
-    jointValue: (norm: string, errors: string) => `${norm} (${errors})`,
+    jointValue: "{{norm}} ({{errors}})",
     noJoint: "none found",
     switching: "This law switches at rest: the margins are those of the averaged loop.",
     loadTitle: "Response to 3 kg, from rest",
@@ -60,28 +60,26 @@ export const stabilityText = {
     frequency: "Hz",
     error: "error, °",
     magnitude: "° per N·m",
-    loadSummary: (peak: string, fault: string | null) =>
-      `Position error after the 3 kg load: up to ${peak}°${fault ? `; fault: ${fault}` : ""}`,
-    loadFault: (fault: string) => `The run ends in a fault. ${fault}`,
-    bodeSummary: (most: string, isUnstable: boolean) =>
-      isUnstable
-        ? "No frequency response: the loop is unstable"
-        : `Error for a sine of 1 N·m on the link, over frequency: up to ${most}°`,
+    loadSummary: "Position error after the 3 kg load: up to {{peak}}°",
+    loadSummaryFault: "Position error after the 3 kg load: up to {{peak}}°; fault: {{fault}}",
+    loadFault: "The run ends in a fault. {{fault}}",
+    noBode: "No frequency response: the loop is unstable",
+    bodeSummary: "Error for a sine of 1 N·m on the link, over frequency: up to {{most}}°",
     bodeUnstable: "unstable: no steady state",
     unstableOn: {
       rig: {
         short: "unstable on the rig",
-        summary: (pole: string) =>
-          `On the rig this loop is unstable (largest pole |z| = ${pole}). The curves show the loop without the rig's quantization and delay.`,
+        summary:
+          "On the rig this loop is unstable (largest pole |z| = {{pole}}). The curves show the loop without the rig's quantization and delay.",
       },
       session: {
         short: "unstable: no steady state",
-        summary: (pole: string) =>
-          `The loop with these settings is unstable (largest pole |z| = ${pole}): a small error keeps growing.`,
+        summary:
+          "The loop with these settings is unstable (largest pole |z| = {{pole}}): a small error keeps growing.",
       },
     },
-    caveat: (summary: string, short: string) => `${summary}; ${short}`,
-    lineStyles: (name: string, short: string | null) => (short ? `${name} (${short})` : name),
+    caveat: "{{summary}}; {{short}}",
+    lineStyles: "{{name}} ({{short}})",
     tried: "these poles",
     inUse: "in use",
     region: "Region of attraction (sampled)",
@@ -89,8 +87,8 @@ export const stabilityText = {
       "One simulation per initial state (q₀, q̇₀); counted as converged if |q| < 1° from 1.8 to 2 s",
     slice: "Slice",
     slices: { rigid: "φ₀ = 0, φ̇₀ = 0", deflected: "φ₀ ±0.3 rad, φ̇₀ ±5 rad/s" },
-    regionCaption: (slice: string, starts: number) =>
-      `Slice of the state space with ${slice}, ${starts} × ${starts} initial states within ±90° and ±20 rad/s. Samples, no proof for other states.`,
+    regionCaption:
+      "Slice of the state space with {{slice}}, {{starts}} × {{starts}} initial states within ±90° and ±20 rad/s. Samples, no proof for other states.",
     regionAxes: "q̇₀ (rad/s) against q₀",
     regionStiffness: "Stiffness σ of the map, N·m/rad",
     law: "Law",
@@ -98,10 +96,11 @@ export const stabilityText = {
     stop: "Stop",
     looks: { rest: "converged", fault: "fault", unsettled: "not within 2 s" },
     regionEmpty: "961 initial states, one simulation each.",
-    regionSummary: (share: string, stiffness: string) =>
-      `Map of initial states at σ = ${stiffness} N·m/rad: ${share} converge`,
-    regionFound: (share: string, done: number, all: number, sensing: string, isOutdated: boolean) =>
-      `${share} of ${done === all ? `${all} initial states` : `the ${done} initial states so far (of ${all})`} converge, ${sensing}${isOutdated ? "; computed for other poles" : ""}`,
+    regionSummary: "Map of initial states at σ = {{stiffness}} N·m/rad: {{share}} converge",
+    regionFound: "{{share}} of {{all}} initial states converge, {{sensing}}",
+    regionSoFar:
+      "{{share}} of the {{done}} initial states so far (of {{all}}) converge, {{sensing}}",
+    regionOutdated: "; computed for other poles",
     fail: "Run the failure in simulation",
     failHint:
       "A private simulated session with these gains and 3 kg after 1 s; this session is unchanged",

@@ -1,23 +1,24 @@
 /** Points and feedback by criterion. */
 import type { Grade } from "../api/course";
-import { text } from "../text/en";
+import { t } from "../text/t";
 import { Table } from "./tables";
-
-const words = text.grades;
 
 export const formatPoints = (points: number): string => String(Number(points.toFixed(2)));
 
 export function Criteria({ grade }: { grade: Grade }) {
   return (
     <Table
-      caption={<span class="visually-hidden">{words.criteria}</span>}
-      heads={[words.asked, words.points, words.feedback]}
+      caption={<span class="visually-hidden">{t("grades.criteria")}</span>}
+      heads={[t("grades.asked"), t("grades.points"), t("grades.feedback")]}
     >
       {grade.criteria.map((criterion) => (
         <tr key={`${criterion.step} ${criterion.name}`}>
           <th scope="row">{criterion.name}</th>
           <td class="nowrap">
-            {words.of(formatPoints(criterion.points), formatPoints(criterion.max_points))}
+            {t("grades.of", {
+              points: formatPoints(criterion.points),
+              most: formatPoints(criterion.max_points),
+            })}
           </td>
           <td class="as-written">{criterion.feedback}</td>
         </tr>
@@ -32,7 +33,7 @@ export function VerifiedRuns({ grade }: { grade: Grade }) {
     <>
       {(grade.runs ?? []).map((run) => (
         <p key={run.run_id} class="hint">
-          {words.run(run.run_id)} {run.description}
+          {t("grades.run", { id: run.run_id })} {run.description}
         </p>
       ))}
     </>

@@ -1,7 +1,7 @@
 /** Parts of a form: choices, numbers, and the reason of a rejection. */
 import { useEffect, useId, useRef, useState } from "preact/hooks";
 import { problem } from "../state/actions";
-import { text } from "../text/en";
+import { t } from "../text/t";
 
 export interface Option<T extends string> {
   value: T;
@@ -63,7 +63,7 @@ export function Problem({ control, id }: { control: string; id?: string }) {
         <>
           {" "}
           <button type="button" class="button is-small" onClick={() => void again()}>
-            {text.meanwhile.again}
+            {t("meanwhile.again")}
           </button>
         </>
       )}

@@ -1,10 +1,9 @@
 /** The user's own law, as a file or as text. */
 
 import { useState } from "preact/hooks";
-import { text } from "../text/en";
+import { t } from "../text/t";
 import { ErrorLine } from "./form";
 
-const words = text.lawText;
 export const MAX_BYTES = 1 << 16;
 
 const countBytes = (law: string): number => new TextEncoder().encode(law).length;
@@ -12,7 +11,7 @@ const countBytes = (law: string): number => new TextEncoder().encode(law).length
 /** Reason why a text cannot be sent; "" if it can. */
 export function findFault(law: string): string {
   const bytes = countBytes(law);
-  return bytes > MAX_BYTES ? words.tooLong(bytes, MAX_BYTES) : "";
+  return bytes > MAX_BYTES ? t("lawText.tooLong", { bytes, most: MAX_BYTES }) : "";
 }
 
 interface LawTextProps {
@@ -32,20 +31,20 @@ export function LawText({ law, onLaw, onFile, start, startWord }: LawTextProps) 
     setUnreadable("");
     if (file === undefined) return;
     if (file.size > MAX_BYTES) {
-      setUnreadable(words.tooLong(file.size, MAX_BYTES));
+      setUnreadable(t("lawText.tooLong", { bytes: file.size, most: MAX_BYTES }));
       return;
     }
     try {
       onLaw(await file.text());
       onFile?.(file.name);
     } catch {
-      setUnreadable(words.unreadable);
+      setUnreadable(t("lawText.unreadable"));
     }
   };
   return (
     <>
       <label>
-        <span>{words.file}</span>
+        <span>{t("lawText.file")}</span>
         <input
           type="file"
           accept=".py,text/x-python"
@@ -53,7 +52,7 @@ export function LawText({ law, onLaw, onFile, start, startWord }: LawTextProps) 
         />
       </label>
       <label>
-        <span>{words.text}</span>
+        <span>{t("lawText.text")}</span>
         <textarea
           rows={14}
           spellcheck={false}
@@ -65,7 +64,7 @@ export function LawText({ law, onLaw, onFile, start, startWord }: LawTextProps) 
             onLaw(currentTarget.value);
           }}
         />
-        <small>{words.most(MAX_BYTES)}</small>
+        <small>{t("lawText.most", { bytes: MAX_BYTES })}</small>
       </label>
       {law === "" && start !== "" && (
         <button type="button" class="button" onClick={() => onLaw(start)}>

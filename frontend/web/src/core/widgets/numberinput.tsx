@@ -2,7 +2,7 @@
 import type { ComponentChildren, HTMLAttributes } from "preact";
 import { useEffect, useId, useLayoutEffect, useRef, useState } from "preact/hooks";
 import { type Demand, readNumber, stepNumber } from "../readnumber";
-import { text } from "../text/en";
+import { t } from "../text/t";
 import { formatInput } from "../units";
 import { MathSymbol } from "./symbol";
 
@@ -71,7 +71,7 @@ export function NumberInput(props: NumberInputProps) {
   const current = typed ?? held;
   const isRounded = typed === null && value !== null && !hasFocus;
   const shown = isRounded ? round(value, digits) : current;
-  const label = props.label ?? props["aria-label"] ?? text.numbers.number;
+  const label = props.label ?? props["aria-label"] ?? t("numbers.number");
   const demand: Demand = { label, unit: unit ?? "", min, max, isInteger: isInteger ?? false };
 
   const restore = () => {
@@ -166,7 +166,7 @@ export function NumberInput(props: NumberInputProps) {
             type="button"
             class="button sign"
             tabIndex={-1}
-            aria-label={text.numbers.sign}
+            aria-label={t("numbers.sign")}
             disabled={disabled}
             onPointerDown={(event) => {
               event.preventDefault();

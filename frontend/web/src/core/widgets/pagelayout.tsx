@@ -3,7 +3,7 @@
 import type { ComponentChildren } from "preact";
 import type { Law } from "../api/types";
 import { usableLaws } from "../state/laws";
-import { text } from "../text/en";
+import { t } from "../text/t";
 import { ErrorLine } from "./form";
 
 interface PageProps {
@@ -51,8 +51,8 @@ export function PageWithForm({ side, children, ...page }: PageProps & { side: Co
 
 /** Marks a result that comes with the lab, and is shown until the user has one. */
 export const Example = () => (
-  <span class="tag" title={text.jobs.exampleHint}>
-    {text.jobs.example}
+  <span class="tag" title={t("jobs.exampleHint")}>
+    {t("jobs.example")}
   </span>
 );
 

@@ -1,7 +1,7 @@
 import type { Signal } from "@preact/signals";
 import type { ComponentChildren } from "preact";
 import { useId, useLayoutEffect, useRef } from "preact/hooks";
-import { text } from "../text/en";
+import { t } from "../text/t";
 
 const open: (() => void)[] = [];
 
@@ -57,7 +57,7 @@ export function Panel({ title, class: look, aside, onClose, children }: PanelPro
         <h2 id={id}>{title}</h2>
         {aside}
         <button type="button" class="button end" onClick={onClose}>
-          {text.panel.close}
+          {t("panel.close")}
         </button>
       </div>
       {children}

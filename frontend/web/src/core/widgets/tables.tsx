@@ -1,6 +1,7 @@
 /** Parts of tables that several pages show: the best value, sortable headers, pages. */
 import type { Signal } from "@preact/signals";
 import type { ComponentChildren } from "preact";
+import { t } from "../text/t";
 
 interface TableProps {
   /** Name of the scrolling part; left out inside a part with that name. */
@@ -150,7 +151,8 @@ export function SortHead({ column, words, sort, onSort }: SortHeadProps) {
 
 interface SortHeadsProps<K extends string> {
   columns: readonly (SortColumn & { key: K })[];
-  words: Record<K, SortHeadProps["words"]>;
+  /** Prefix of the keys of their names and hints. */
+  words: "leaderboard.columns" | "ranking.columns";
   sort: Signal<string>;
 }
 
@@ -160,7 +162,10 @@ export function SortHeads<K extends string>({ columns, words, sort }: SortHeadsP
     <SortHead
       key={column.key}
       column={column}
-      words={words[column.key]}
+      words={{
+        name: t(`${words}.${column.key}.name` as "ranking.columns.p.name"),
+        hint: t(`${words}.${column.key}.hint` as "ranking.columns.p.hint"),
+      }}
       sort={sort.value}
       onSort={(next) => {
         sort.value = next;

@@ -1,6 +1,7 @@
 /** An adversary as edited in the form, and as sent to the server. */
 import type { Adversary, Scenario, Term } from "../../core/api/falsifications";
 import type { Span } from "../../core/plots/spans";
+import { t } from "../../core/text/t";
 
 export const HARMS = ["fault", "peak", "recovery"] as const;
 export const KINDS = ["step", "pulse", "sine"] as const;
@@ -107,14 +108,14 @@ export function writeForm(form: AdversaryForm): Adversary {
 }
 
 /** Short description of a family, for the title of a changed search. */
-export const describeTerms = (
-  terms: readonly TermForm[],
-  words: { kinds: Record<Kind, string>; bodies: Record<Body, string> },
-): string =>
+export const describeTerms = (terms: readonly TermForm[]): string =>
   terms
-    .map(
-      ({ kind, bodies, torqueNm }) =>
-        `${words.kinds[kind]} of at most ${torqueNm} N·m on ${bodies.map((body) => words.bodies[body]).join(", ")}`,
+    .map(({ kind, bodies, torqueNm }) =>
+      t("falsifier.term", {
+        kind: t(`falsifier.kinds.${kind}`),
+        torque: torqueNm,
+        bodies: bodies.map((body) => t(`falsifier.bodies.${body}`)).join(", "),
+      }),
     )
     .join("; ")
     .slice(0, 200);

@@ -4,14 +4,12 @@ import type { LineStyle } from "../../core/plots/definitions";
 import { dotOf } from "../../core/plots/linestyles";
 import { writeFault } from "../../core/state/faults";
 import { titleOf, usableLaws } from "../../core/state/laws";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { DEGREES_PER_RADIAN, formatNumber } from "../../core/units";
 import { LawBoxes } from "../../core/widgets/pagelayout";
 import { Table } from "../../core/widgets/tables";
 import { baselinesOf, findingOf, isBusy, laws, openInLab, scenario, setLaws } from "./falsifier";
 import type { DrawnLaw } from "./picture";
-
-const words = text.falsifier;
 
 const metricOf = (trace: LawTrace, name: string, factor = 1): string => {
   const value = trace.metrics[name];
@@ -19,12 +17,14 @@ const metricOf = (trace: LawTrace, name: string, factor = 1): string => {
 };
 
 const endOf = ({ fault, fault_s: timeS }: LawTrace): string =>
-  fault === null ? words.whole : words.fault(writeFault(fault), formatNumber(timeS, 4, 3));
+  fault === null
+    ? t("falsifier.whole")
+    : t("falsifier.fault", { fault: writeFault(fault), timeS: formatNumber(timeS, 4, 3) });
 
 /** Text for a missing recovery: the run ended, or it did not recover. */
 const recoveryOf = (trace: LawTrace): string =>
   trace.fault === null && trace.metrics.recovery_time_s === null
-    ? words.never
+    ? t("falsifier.never")
     : metricOf(trace, "recovery_time_s");
 
 const peakOf = (trace: LawTrace): number => trace.metrics.peak_position_error_rad ?? Infinity;
@@ -54,7 +54,7 @@ function Row({ trace, lineStyle, onDraw }: RowProps) {
           type="button"
           class="nowrap falsifier-law"
           aria-pressed={lineStyle !== undefined}
-          title={words.draw(title)}
+          title={t("falsifier.draw", { law: title })}
           onClick={() => onDraw(trace.law)}
         >
           <i class="dot" aria-hidden="true" style={dotOf(lineStyle)} />
@@ -70,12 +70,12 @@ function Row({ trace, lineStyle, onDraw }: RowProps) {
         <button
           type="button"
           class="button"
-          title={words.seeHint}
-          aria-label={words.seeLabel(title)}
+          title={t("falsifier.seeHint")}
+          aria-label={t("falsifier.seeLabel", { law: title })}
           disabled={isBusy.value !== ""}
           onClick={() => void openInLab(trace.law)}
         >
-          {words.see}
+          {t("falsifier.see")}
         </button>
       </td>
     </tr>
@@ -87,7 +87,7 @@ function Choice() {
   const tested = scenario.value && findingOf(scenario.value)?.law;
   return (
     <details class="falsifier-choice">
-      <summary>{words.choice}</summary>
+      <summary>{t("falsifier.choice")}</summary>
       <LawBoxes laws={laws.value} onChange={setLaws} />
       <div class="row">
         <button
@@ -95,11 +95,11 @@ function Choice() {
           class="button"
           onClick={() => setLaws(usableLaws.value.map(({ name }) => name))}
         >
-          {words.all}
+          {t("falsifier.all")}
         </button>
         {tested && (
           <button type="button" class="button" onClick={() => setLaws(baselinesOf(tested))}>
-            {words.few}
+            {t("falsifier.few")}
           </button>
         )}
       </div>
@@ -114,15 +114,22 @@ interface LawsProps {
   onDraw: (law: Law) => void;
 }
 
+const COLUMNS = ["law", "end", "peak", "settled", "recovery", "stiffness", "see"] as const;
+
+function describeHeld(held: number, laws: number): string {
+  if (held < laws) return t("falsifier.held", { held, laws });
+  return laws === 1 ? t("falsifier.noFault") : t("falsifier.noFaults", { laws });
+}
+
 /** The laws that completed the run, and those that ended in a fault. */
 export function Laws({ traces, drawn, isRunning, onDraw }: LawsProps) {
   const held = traces.filter(({ fault }) => fault === null).length;
   return (
-    <section class="surface card wide" aria-label={words.laws}>
-      <h3>{words.laws}</h3>
-      <p role="status">{isRunning ? words.running : words.held(held, traces.length)}</p>
+    <section class="surface card wide" aria-label={t("falsifier.laws")}>
+      <h3>{t("falsifier.laws")}</h3>
+      <p role="status">{isRunning ? t("falsifier.running") : describeHeld(held, traces.length)}</p>
       <Choice />
-      <Table heads={Object.values(words.columns)}>
+      <Table heads={COLUMNS.map((key) => t(`falsifier.columns.${key}`))}>
         {rankLaws(traces).map((trace) => (
           <Row
             key={trace.law}
@@ -132,7 +139,7 @@ export function Laws({ traces, drawn, isRunning, onDraw }: LawsProps) {
           />
         ))}
       </Table>
-      <p class="hint">{words.lawsHint}</p>
+      <p class="hint">{t("falsifier.lawsHint")}</p>
     </section>
   );
 }

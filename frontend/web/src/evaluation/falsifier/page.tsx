@@ -6,7 +6,7 @@ import type { LineStyle } from "../../core/plots/definitions";
 import { lineStylesOfLaws } from "../../core/plots/linestyles";
 import { mayCall } from "../../core/state/control";
 import { laws as installedLaws, titleOf } from "../../core/state/laws";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { PageWithForm } from "../../core/widgets/pagelayout";
 import { ResultMenu } from "../campaign/resultmenu";
 import {
@@ -30,7 +30,6 @@ import { type DrawnLaw, TracePlots } from "./picture";
 import { ScenarioResult } from "./scenarioresult";
 import { Start } from "./start";
 
-const words = text.falsifier;
 const MAX_DRAWN = 4;
 
 function SavedScenarios() {
@@ -38,8 +37,8 @@ function SavedScenarios() {
   return (
     <>
       <ResultMenu
-        title={words.kept}
-        loading={savedScenarios.value === null && problem.value === "" && words.loading}
+        title={t("falsifier.kept")}
+        loading={savedScenarios.value === null && problem.value === "" && t("falsifier.loading")}
         shown={name}
         results={(savedScenarios.value ?? []).map((saved) => ({
           key: saved.name,
@@ -52,7 +51,7 @@ function SavedScenarios() {
       />
       {searches.value !== null && searches.value.length > 0 && (
         <ResultMenu
-          title={words.searches}
+          title={t("falsifier.searches")}
           shown={shown}
           results={searches.value.map((search) => ({
             key: search.id,
@@ -61,7 +60,7 @@ function SavedScenarios() {
             name: titleOf(search.law),
             state:
               (!isJobRunning(search) && search.scenario && findingOf(search.scenario)?.outcome) ||
-              text.jobs.status[search.status],
+              t(`jobs.status.${search.status}`),
           }))}
         />
       )}
@@ -86,8 +85,10 @@ function Under() {
     );
   }, [trace, names.join(), installed]);
   if (shownScenario === null) return null;
-  if (!mayCall("post", "/scenarios/runs")) return <p class="hint wide">{words.observer}</p>;
-  if (trace === null) return <p class="hint wide">{problem.value === "" && words.running}</p>;
+  if (!mayCall("post", "/scenarios/runs"))
+    return <p class="hint wide">{t("falsifier.observer")}</p>;
+  if (trace === null)
+    return <p class="hint wide">{problem.value === "" && t("falsifier.running")}</p>;
   const draw = (law: Law) =>
     setPicked(names.includes(law) ? names.filter((name) => name !== law) : [...names, law]);
   return (
@@ -115,8 +116,8 @@ export function FalsifierPage() {
   }, [id, name]);
   return (
     <PageWithForm
-      title={words.title}
-      lead={words.lead}
+      title={t("falsifier.title")}
+      lead={t("falsifier.lead")}
       problem={problem.value}
       side={
         <>

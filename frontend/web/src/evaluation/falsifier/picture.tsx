@@ -10,11 +10,10 @@ import {
   spanWithin,
   useStaticChart,
 } from "../../core/plots/staticchart";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { DEGREES_PER_RADIAN } from "../../core/units";
 import { BODIES, spanOf } from "./definition";
 
-const words = text.falsifier;
 const TIME_AXIS_PX = 26;
 const CROSS_PX = 5;
 const TORQUE_LINE_STYLES: readonly LineStyle[] = (
@@ -88,7 +87,10 @@ function describeChart(curves: readonly StaticCurve[], { chart, trace, drawn, vi
     curves,
     minSpan: MIN_SPANS[chart],
     padding: [8, 14, hasTimes ? 0 : 8, 0],
-    timeAxis: { size: hasTimes ? TIME_AXIS_PX : 0, tick: words.secondTick },
+    timeAxis: {
+      size: hasTimes ? TIME_AXIS_PX : 0,
+      tick: (timeS: number) => t("falsifier.secondTick", { timeS: Number(timeS.toFixed(3)) }),
+    },
     group: "falsifier",
     ...view,
     ...(chart !== "torque" && { drawAbove: (plot: uPlot) => drawCrosses(plot, trace, drawn) }),
@@ -99,7 +101,7 @@ function ErrorChart(props: ChartProps) {
   const { chart, trace, drawn, view } = props;
   const curves = useMemo(() => curvesOf(chart, trace, drawn), [chart, trace, drawn]);
   const host = useStaticChart(useMemo(() => describeChart(curves, props), [curves, view]));
-  const { title, unit } = words.charts[chart];
+  const [title, unit] = [t(`falsifier.charts.${chart}.title`), t(`falsifier.charts.${chart}.unit`)];
   const bodies = curves.filter(({ key }) => BODIES.some((body) => body === key));
   return (
     <section aria-label={title}>
@@ -108,7 +110,7 @@ function ErrorChart(props: ChartProps) {
         {bodies.length > 1 &&
           bodies.map((body) => (
             <span key={body.key} class="unit">
-              <Swatch look={body} /> {words.bodies[body.key as (typeof BODIES)[number]]}
+              <Swatch look={body} /> {t(`falsifier.bodies.${body.key as (typeof BODIES)[number]}`)}
             </span>
           ))}
       </h4>
@@ -117,7 +119,7 @@ function ErrorChart(props: ChartProps) {
         ref={host}
         role="img"
         aria-label={`${title}, ${unit}`}
-        title={words.pictureHint}
+        title={t("falsifier.pictureHint")}
       />
     </section>
   );
@@ -133,14 +135,14 @@ interface PictureProps {
 export function TracePlots({ scenario, trace, drawn }: PictureProps) {
   const view = useMemo(() => spanWithin(spanOf(scenario, trace.time_s)), [trace]);
   return (
-    <section class="surface card wide" aria-label={words.picture}>
-      <h3>{words.picture}</h3>
+    <section class="surface card wide" aria-label={t("falsifier.picture")}>
+      <h3>{t("falsifier.picture")}</h3>
       {(["torque", "position", "stiffness"] as const).map((chart) => (
         <ErrorChart key={chart} {...{ chart, trace, drawn, view }} />
       ))}
       <p class="hint">
-        {drawn.some(({ fault }) => fault !== null) && <>{words.crosses}. </>}
-        {words.pictureHint}
+        {drawn.some(({ fault }) => fault !== null) && <>{t("falsifier.crosses")}. </>}
+        {t("falsifier.pictureHint")}
       </p>
     </section>
   );

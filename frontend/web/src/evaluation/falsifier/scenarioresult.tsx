@@ -3,7 +3,7 @@ import { type Scenario, scenarioFileOf, searchFileOf } from "../../core/api/fals
 import { isJobRunning, JobProgress } from "../../core/jobs/progress";
 import { formatShare } from "../../core/quantities";
 import { titleOf } from "../../core/state/laws";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { formatNumber } from "../../core/units";
 import { Example } from "../../core/widgets/pagelayout";
 import { copyText } from "../../lab/script/copybutton";
@@ -18,18 +18,16 @@ import {
   shownTrace,
 } from "./falsifier";
 
-const words = text.falsifier;
-
 /** A link to the selection; the link to a search is valid as long as the lab runs. */
 function Link() {
   const [message, setMessage] = useState("");
   const copy = async () => {
-    setMessage((await copyText(location.href)) ? words.copied : words.notCopied);
+    setMessage((await copyText(location.href)) ? t("falsifier.copied") : t("falsifier.notCopied"));
   };
   return (
     <>
       <button type="button" class="button" onClick={() => void copy()}>
-        {words.copy}
+        {t("falsifier.copy")}
       </button>
       <span role="status">{message}</span>
     </>
@@ -46,8 +44,8 @@ function Keep({ offered }: { offered: string }) {
         void saveSelection(name);
       }}
     >
-      <label class="form" title={words.nameHint}>
-        <span>{words.name}</span>
+      <label class="form" title={t("falsifier.nameHint")}>
+        <span>{t("falsifier.name")}</span>
         <input
           type="text"
           required
@@ -58,7 +56,7 @@ function Keep({ offered }: { offered: string }) {
         />
       </label>
       <button type="submit" class="button is-primary" disabled={isBusy.value !== ""}>
-        {words.keep}
+        {t("falsifier.keep")}
       </button>
     </form>
   );
@@ -72,20 +70,24 @@ function Facts({ scenario }: { scenario: Scenario }) {
     <>
       {finding && (
         <p>
-          <b>{words.found(titleOf(finding.law), finding.outcome)}</b>{" "}
+          <b>{t("falsifier.found", { law: titleOf(finding.law), outcome: finding.outcome })}</b>{" "}
           <span class="hint">
-            {words.foundAt(finding.at_run, finding.runs, finding.seed)},{" "}
-            {words.lasts(formatNumber(Number(scenario.duration_s), 3))}
+            {t("falsifier.foundAt", {
+              run: finding.at_run,
+              runs: finding.runs,
+              seed: finding.seed,
+            })}
+            , {t("falsifier.lasts", { duration: formatNumber(Number(scenario.duration_s), 3) })}
           </span>
         </p>
       )}
       {finding?.neighbors && shownTrace.value?.neighborhood && (
-        <p title={words.neighborhoodHint}>
-          {words.neighborhood(
-            finding.neighbors_failed ?? 0,
-            finding.neighbors,
-            formatShare(shownTrace.value.neighborhood),
-          )}
+        <p title={t("falsifier.neighborhoodHint")}>
+          {t("falsifier.neighborhood", {
+            failed: finding.neighbors_failed ?? 0,
+            runs: finding.neighbors,
+            share: formatShare(shownTrace.value.neighborhood),
+          })}
         </p>
       )}
       <ul class="bullets">
@@ -112,21 +114,21 @@ export function ScenarioResult({ scenario }: { scenario: Scenario | null }) {
       {at && (
         <JobProgress
           job={at}
-          done={words.state(at.done, at.total)}
+          done={t("falsifier.state", { done: at.done, total: at.total })}
           total={at.total}
-          label={words.progress(titleOf(at.law))}
+          label={t("falsifier.progress", { law: titleOf(at.law) })}
           onCancel={() => void cancel()}
         />
       )}
       {scenario === null ? (
-        <p class="hint">{isUnderWay ? words.nothingYet : null}</p>
+        <p class="hint">{isUnderWay ? t("falsifier.nothingYet") : null}</p>
       ) : (
         <>
-          {at && <h4>{at.scenario ? words.simplest : words.worstSoFar}</h4>}
+          {at && <h4>{at.scenario ? t("falsifier.simplest") : t("falsifier.worstSoFar")}</h4>}
           <Facts scenario={scenario} />
           {at && at.steps.length > 0 && (
             <details>
-              <summary>{words.steps(at.steps.length)}</summary>
+              <summary>{t("falsifier.steps", { count: at.steps.length })}</summary>
               <ol class="bullets small falsifier-steps">
                 {at.steps.map((step, number) => (
                   <li key={`${number} ${step}`}>{step}</li>
@@ -142,12 +144,12 @@ export function ScenarioResult({ scenario }: { scenario: Scenario | null }) {
                 href={name !== "" ? scenarioFileOf(name) : searchFileOf(at?.id ?? "")}
                 download
               >
-                {words.file}
+                {t("falsifier.file")}
               </a>
               <Link />
             </div>
           )}
-          {at && <p class="hint">{isUnderWay ? words.noProof : words.passing}</p>}
+          {at && <p class="hint">{isUnderWay ? t("falsifier.noProof") : t("falsifier.passing")}</p>}
         </>
       )}
     </section>

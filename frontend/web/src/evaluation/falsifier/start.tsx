@@ -1,7 +1,7 @@
 import { useState } from "preact/hooks";
 import type { Adversary } from "../../core/api/falsifications";
 import { titleOf, usableLaws } from "../../core/state/laws";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { SelectField } from "../../core/widgets/form";
 import { NumberField } from "../../core/widgets/numberinput";
 import { SourceField } from "../campaign/sourcefield";
@@ -18,7 +18,6 @@ import {
 import { adversaries, isBusy, startNewSearch } from "./falsifier";
 import { TermFields } from "./term";
 
-const words = text.falsifier;
 const RUNS = 20_000;
 
 /** Base of the runs: effects, references. */
@@ -28,19 +27,19 @@ function Base({ form, onChange }: FieldsProps) {
   return (
     <div class="pair">
       <SelectField
-        label={words.effects}
+        label={t("falsifier.effects")}
         value={effects ?? "given"}
         options={effects ? EFFECTS : [...EFFECTS, "given" as const]}
-        name={(effect) => words.effect[effect]}
+        name={(effect) => t(`falsifier.effect.${effect}`)}
         onChoose={(effect) =>
           effect !== "given" && onChange({ base: { ...base, effects: effect } })
         }
       />
       <SelectField
-        label={words.figure}
+        label={t("falsifier.figure")}
         value={String(base.figure ?? FIGURES[0])}
         options={FIGURES}
-        name={(figure) => text.figures.name[figure as (typeof FIGURES)[number]]}
+        name={(figure) => t(`figures.name.${figure as (typeof FIGURES)[number]}`)}
         onChoose={(figure) => onChange({ base: { ...base, figure } })}
       />
     </div>
@@ -54,11 +53,10 @@ interface FieldsProps {
 
 function Loads({ form, onChange }: FieldsProps) {
   const { terms } = form;
-  const set = (next: readonly TermForm[]) =>
-    onChange({ terms: next, title: describeTerms(next, words) });
+  const set = (next: readonly TermForm[]) => onChange({ terms: next, title: describeTerms(next) });
   return (
     <fieldset class="stack">
-      <legend class="hint">{words.loads}</legend>
+      <legend class="hint">{t("falsifier.loads")}</legend>
       {terms.map((term, at) => (
         <TermFields
           key={at}
@@ -75,7 +73,7 @@ function Loads({ form, onChange }: FieldsProps) {
         disabled={terms.length >= 8}
         onClick={() => set([...terms, terms.at(-1) as TermForm])}
       >
-        {words.add}
+        {t("falsifier.add")}
       </button>
     </fieldset>
   );
@@ -108,10 +106,10 @@ export function Start() {
         void startNewSearch({ ...definition, ...(law !== "" && { law }), runs, seed });
       }}
     >
-      <h3>{words.begin}</h3>
+      <h3>{t("falsifier.begin")}</h3>
       <SourceField
-        label={words.adversary}
-        own={{ name: words.own, label: words.text }}
+        label={t("falsifier.adversary")}
+        own={{ name: t("falsifier.own"), label: t("falsifier.text") }}
         templates={known}
         source={chosen}
         text={own}
@@ -122,36 +120,36 @@ export function Start() {
         }}
       />
       <SelectField
-        label={words.law}
+        label={t("falsifier.law")}
         value={tested}
         options={[...(form ? [] : [""]), ...usableLaws.value.map(({ name }) => name)]}
-        name={(name) => (name === "" ? text.studies.asInStudy : titleOf(name))}
+        name={(name) => (name === "" ? t("studies.asInStudy") : titleOf(name))}
         onChoose={setLaw}
       />
       {form && (
         <>
           <SelectField
-            label={words.cost}
+            label={t("falsifier.cost")}
             value={form.cost}
             options={HARMS}
-            name={(cost) => words.costs[cost]}
-            title={words.costHint}
+            name={(cost) => t(`falsifier.costs.${cost}`)}
+            title={t("falsifier.costHint")}
             onChoose={(cost) => change({ cost })}
           />
           <Base form={form} onChange={change} />
           <Loads form={form} onChange={change} />
           <div class="pair">
             <NumberField
-              label={words.off}
+              label={t("falsifier.off")}
               unit="%"
-              title={words.offHint}
+              title={t("falsifier.offHint")}
               min={0}
               max={90}
               value={form.offPercent}
               onInput={(offPercent) => change({ offPercent })}
             />
             <NumberField
-              label={words.duration}
+              label={t("falsifier.duration")}
               unit="s"
               min={0.1}
               max={60}
@@ -163,19 +161,19 @@ export function Start() {
       )}
       <div class="pair">
         <NumberField
-          label={words.runs}
+          label={t("falsifier.runs")}
           isInteger
-          title={words.runsHint}
+          title={t("falsifier.runsHint")}
           min={1}
           max={100_000}
           value={runs}
           onInput={setRuns}
         />
-        <NumberField label={words.seed} isInteger min={0} value={seed} onInput={setSeed} />
+        <NumberField label={t("falsifier.seed")} isInteger min={0} value={seed} onInput={setSeed} />
       </div>
       <div class="row">
         <button type="submit" class="button is-primary" disabled={isBusy.value !== ""}>
-          {words.search}
+          {t("falsifier.search")}
         </button>
       </div>
     </form>

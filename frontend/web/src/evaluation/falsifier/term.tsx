@@ -1,9 +1,7 @@
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { SelectField } from "../../core/widgets/form";
 import { NumberField } from "../../core/widgets/numberinput";
 import { BODIES, changeKind, KINDS, type TermForm } from "./definition";
-
-const words = text.falsifier;
 
 interface RangeProps {
   label: string;
@@ -23,7 +21,7 @@ function Range({ label, unit, ends, onChange }: RangeProps) {
         onInput={(from) => onChange([from, ends[1]])}
       />
       <NumberField
-        label={words.to}
+        label={t("falsifier.to")}
         unit={unit}
         min={0}
         value={ends[1]}
@@ -45,17 +43,17 @@ interface TermFieldsProps {
 export function TermFields({ number, term, canBeRemoved, onChange, onRemove }: TermFieldsProps) {
   return (
     <fieldset class="stack sunken falsifier-term">
-      <legend>{words.load(number)}</legend>
+      <legend>{t("falsifier.load", { number })}</legend>
       <div class="pair">
         <SelectField
-          label={words.kind}
+          label={t("falsifier.kind")}
           value={term.kind}
           options={KINDS}
-          name={(kind) => words.kinds[kind]}
+          name={(kind) => t(`falsifier.kinds.${kind}`)}
           onChoose={(kind) => onChange(changeKind(term, kind))}
         />
         <NumberField
-          label={words.torque}
+          label={t("falsifier.torque")}
           unit="N·m"
           min={0}
           max={50}
@@ -64,7 +62,7 @@ export function TermFields({ number, term, canBeRemoved, onChange, onRemove }: T
         />
       </div>
       <p class="row">
-        <span class="hint">{words.onBodies}</span>
+        <span class="hint">{t("falsifier.onBodies")}</span>
         {BODIES.map((body) => {
           const others = term.bodies.filter((other) => other !== body);
           const isOn = others.length < term.bodies.length;
@@ -76,20 +74,20 @@ export function TermFields({ number, term, canBeRemoved, onChange, onRemove }: T
                 disabled={isOn && others.length === 0}
                 onChange={() => onChange({ ...term, bodies: isOn ? others : [...others, body] })}
               />{" "}
-              {words.bodies[body]}
+              {t(`falsifier.bodies.${body}`)}
             </label>
           );
         })}
       </p>
       <Range
-        label={words.onsetFrom}
+        label={t("falsifier.onsetFrom")}
         unit="s"
         ends={term.startS}
         onChange={(startS) => onChange({ ...term, startS })}
       />
       {term.kind !== "step" && (
         <Range
-          label={words.ownFrom[term.kind]}
+          label={t(`falsifier.ownFrom.${term.kind}`)}
           unit={term.kind === "sine" ? "Hz" : "s"}
           ends={term.own}
           onChange={(own) => onChange({ ...term, own })}
@@ -99,10 +97,10 @@ export function TermFields({ number, term, canBeRemoved, onChange, onRemove }: T
         <button
           type="button"
           class="button"
-          aria-label={words.removeLabel(number)}
+          aria-label={t("falsifier.removeLabel", { number })}
           onClick={onRemove}
         >
-          {words.remove}
+          {t("falsifier.remove")}
         </button>
       )}
     </fieldset>

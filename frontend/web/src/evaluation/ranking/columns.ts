@@ -1,10 +1,9 @@
 /** The columns of the ranking: content and sort key. */
 import type { Family, Outcome, Results, Row } from "../../core/api/ranking";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { formatNumber, toDegrees } from "../../core/units";
 import { type SortColumn, sortBy } from "../../core/widgets/tables";
 
-const words = text.ranking;
 const MIDDLE = 4;
 const MOST = 6;
 export const PEAK = "peak_position_error_rad";
@@ -12,7 +11,17 @@ export const SHARE = "peak_stiffness_error_share";
 export const RECOVERY = "recovery_time_s";
 
 export interface Column extends SortColumn {
-  key: keyof typeof words.columns;
+  key:
+    | "rank"
+    | "familyA"
+    | "familyB"
+    | "p"
+    | "rig"
+    | "removal"
+    | "mass"
+    | "unmodelled"
+    | "load"
+    | "noise";
   /** Sort key; null comes last. */
   read: (row: Row, results: Results) => number | null;
   write: (row: Row, results: Results) => string;
@@ -26,18 +35,25 @@ export const rankOf = (results: Results, key: string) =>
 const successOf = (family: Family | undefined): number =>
   family === undefined ? 0 : family.held / family.trials;
 
+const writePercent = (share: number): string => (100 * share).toFixed(1);
+
+function writeP(value: number | null): string {
+  if (value === null) return "–";
+  return value < 0.001 ? "< 0.001" : value.toPrecision(2);
+}
+
 /** The success rate with Wilson's interval, from the server. */
 export const writeSuccess = (family: Family | undefined): string =>
   family === undefined
     ? ""
-    : words.success(100 * family.success, 100 * family.success_low, 100 * family.success_high);
+    : `${writePercent(family.success)} (${writePercent(family.success_low)}–${writePercent(family.success_high)})`;
 
 /** The median or the 90 % quantile of a family's trials. */
 export const quantileOf = (family: Family, metric: string, share: "middle" | "most") =>
   family.metrics[metric]?.[share === "middle" ? MIDDLE : MOST] ?? null;
 
 export const writeDegrees = (value: number | null | undefined): string =>
-  value === null || value === undefined ? words.fault : formatNumber(toDegrees(value));
+  value === null || value === undefined ? t("ranking.fault") : formatNumber(toDegrees(value));
 
 const outcomeOf = (row: Row, scenario: string): Outcome | undefined =>
   row.scenarios.find((outcome) => outcome.scenario === scenario);
@@ -46,7 +62,9 @@ const outcomeOf = (row: Row, scenario: string): Outcome | undefined =>
 export const writeOutcome = (outcome: Outcome | undefined): string => {
   if (outcome === undefined) return "";
   const pair = `${writeDegrees(outcome.median[PEAK])} / ${writeDegrees(outcome.worst_values[PEAK])}`;
-  return outcome.faults > 0 ? words.withFaults(pair, outcome.faults, outcome.runs) : pair;
+  return outcome.faults > 0
+    ? t("ranking.withFaults", { pair, faults: outcome.faults, runs: outcome.runs })
+    : pair;
 };
 
 const fixed = (key: Column["key"], scenario: string): Column => ({
@@ -77,7 +95,7 @@ export const COLUMNS: readonly Column[] = [
   {
     key: "p",
     read: (row, results) => rankOf(results, row.key)?.p_value ?? null,
-    write: (row, results) => words.p(rankOf(results, row.key)?.p_value ?? null),
+    write: (row, results) => writeP(rankOf(results, row.key)?.p_value ?? null),
   },
   fixed("rig", "rig_4a"),
   fixed("removal", "load_removal"),
@@ -94,7 +112,7 @@ export const COLUMNS: readonly Column[] = [
     read: (row) => row.noise.variation_nm_per_s,
     write: (row) =>
       row.noise.variation_nm_per_s === null
-        ? words.fault
+        ? t("ranking.fault")
         : formatNumber(row.noise.variation_nm_per_s),
   },
 ];

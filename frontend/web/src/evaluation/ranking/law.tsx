@@ -1,23 +1,21 @@
 import type { Outcome, Row } from "../../core/api/ranking";
 import { Formula } from "../../core/equations/formula";
 import { lawOf } from "../../core/state/laws";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { formatNumber, toDegrees } from "../../core/units";
 import { MathSymbol } from "../../core/widgets/symbol";
 import { quantileOf, RECOVERY, SHARE, writeOutcome } from "./columns";
 import { chosen, isBusy, openInLab, results, splitSource, titleOfRow } from "./ranking";
-
-const words = text.ranking;
 
 function Source({ source }: { source: string }) {
   if (source === "") return null;
   const { said: citation, doi } = splitSource(source);
   return (
     <p class="hint">
-      {words.source} {citation}
+      {t("ranking.source")} {citation}
       {doi !== "" && (
         <a href={`https://doi.org/${doi}`} target="_blank" rel="noreferrer">
-          {words.doi(doi)}
+          {t("ranking.doi", { doi })}
         </a>
       )}
     </p>
@@ -26,11 +24,11 @@ function Source({ source }: { source: string }) {
 
 /** Origin of its parameters. */
 function Tuning({ row: { tuning, variant } }: { row: Row }) {
-  if (!tuning) return <p class="hint">{words.variants[variant]}</p>;
+  if (!tuning) return <p class="hint">{t(`ranking.variants.${variant}`)}</p>;
   const { candidates, trials, validation, seed } = tuning;
   return (
     <>
-      <p class="hint">{words.tuned(candidates, trials, validation, seed)}</p>
+      <p class="hint">{t("ranking.tuned", { candidates, trials, validation, seed })}</p>
       <p class="hint">
         {Object.entries(tuning.values)
           .map(([name, value]) => `${name} ${formatNumber(value, 4)}`)
@@ -41,7 +39,7 @@ function Tuning({ row: { tuning, variant } }: { row: Row }) {
 }
 
 const percentOf = (value: number | null | undefined): string =>
-  value === null || value === undefined ? words.fault : formatNumber(100 * value);
+  value === null || value === undefined ? t("ranking.fault") : formatNumber(100 * value);
 const secondsOf = (value: number | null | undefined): string =>
   value === null || value === undefined ? "–" : formatNumber(value);
 
@@ -51,7 +49,7 @@ function ScenarioRow({ row, outcome }: { row: Row; outcome: Outcome }) {
       <th scope="row">
         <button
           type="button"
-          title={words.seeWorst}
+          title={t("ranking.seeWorst")}
           disabled={isBusy.value !== ""}
           onClick={() => void openInLab(row.key, outcome.worst)}
         >
@@ -63,7 +61,7 @@ function ScenarioRow({ row, outcome }: { row: Row; outcome: Outcome }) {
       <td class="number">
         {`${secondsOf(outcome.median[RECOVERY])} / ${secondsOf(outcome.worst_values[RECOVERY])}`}
       </td>
-      <td class="number">{words.ofRuns(outcome.held, outcome.runs)}</td>
+      <td class="number">{t("ranking.ofRuns", { held: outcome.held, runs: outcome.runs })}</td>
     </tr>
   );
 }
@@ -71,10 +69,10 @@ function ScenarioRow({ row, outcome }: { row: Row; outcome: Outcome }) {
 function Scenarios({ row }: { row: Row }) {
   return (
     <table class="table">
-      <caption>{words.scenarios}</caption>
+      <caption>{t("ranking.scenarios")}</caption>
       <thead>
         <tr>
-          {words.scenarioHeads.map((head) => (
+          {t("ranking.scenarioHeads", { returnObjects: true }).map((head) => (
             <th key={head} scope="col">
               {head}
             </th>
@@ -90,26 +88,39 @@ function Scenarios({ row }: { row: Row }) {
   );
 }
 
+const METRICS = [
+  "rms_position_error_rad",
+  "peak_position_error_rad",
+  "recovery_time_s",
+  "steady_state_position_error_rad",
+  "rms_stiffness_error_nm_per_rad",
+  "peak_stiffness_error_share",
+  "rms_torque1_nm",
+  "rms_torque2_nm",
+  "work_j",
+  "torque1_variation_nm_per_s",
+] as const;
+
 /** Medians and 90 % quantiles of the trials, by family. */
 function Trials({ row }: { row: Row }) {
   const families = Object.entries(row.families);
   return (
     <table class="table">
-      <caption>{words.trials}</caption>
+      <caption>{t("ranking.trials")}</caption>
       <thead>
         <tr>
           <td />
           {families.map(([name]) => (
             <th key={name} scope="col">
-              {words.family(name)}
+              {t("ranking.family", { name })}
             </th>
           ))}
         </tr>
       </thead>
       <tbody>
-        {Object.entries(words.metrics).map(([metric, title]) => (
+        {METRICS.map((metric) => (
           <tr key={metric}>
-            <th scope="row">{title}</th>
+            <th scope="row">{t(`ranking.metrics.${metric}`)}</th>
             {families.map(([name, family]) => {
               const write = (share: "middle" | "most") => {
                 const value = quantileOf(family, metric, share);

@@ -1,5 +1,5 @@
 import { useEffect } from "preact/hooks";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { Page } from "../../core/widgets/pagelayout";
 import { MathSymbol } from "../../core/widgets/symbol";
 import { COLUMNS } from "./columns";
@@ -8,18 +8,16 @@ import { Pareto } from "./pareto";
 import { openRanking, problem, results } from "./ranking";
 import { RankingTable } from "./table";
 
-const words = text.ranking;
-
 /** Conditions of all measurements. */
 function Legend() {
   return (
     <details class="surface card">
-      <summary>{words.legend}</summary>
+      <summary>{t("ranking.legend")}</summary>
       <dl class="cells" style={{ "--cell": "320px" }}>
         {COLUMNS.map(({ key }) => (
           <div key={key}>
-            <dt class="strong">{words.columns[key].name}</dt>
-            <dd class="muted">{words.columns[key].hint}</dd>
+            <dt class="strong">{t(`ranking.columns.${key}.name`)}</dt>
+            <dd class="muted">{t(`ranking.columns.${key}.hint`)}</dd>
           </div>
         ))}
       </dl>
@@ -33,14 +31,23 @@ export function RankingPage() {
   const ranking = results.value;
   const versions = [...new Set(ranking?.rows.map(({ version }) => version))];
   return (
-    <Page title={words.title} lead={words.lead} problem={problem.value}>
+    <Page title={t("ranking.title")} lead={t("ranking.lead")} problem={problem.value}>
       {ranking === null ? (
-        problem.value === "" && <p class="hint">{words.loading}</p>
+        problem.value === "" && <p class="hint">{t("ranking.loading")}</p>
       ) : (
         <>
           <RankingTable />
           <p class="hint">
-            <MathSymbol text={words.provenance({ ...ranking, versions })} />
+            <MathSymbol
+              text={t("ranking.provenance", {
+                criterion: { ...ranking, versions }.criterion,
+                trials: { ...ranking, versions }.trials,
+                duration: { ...ranking, versions }.duration_s,
+                seed: { ...ranking, versions }.seed,
+                protocol: { ...ranking, versions }.protocol,
+                versions: { ...ranking, versions }.versions.join(t("ranking.and")),
+              })}
+            />
           </p>
           <Legend />
           <div class="halves">

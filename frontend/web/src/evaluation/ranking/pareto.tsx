@@ -1,10 +1,9 @@
 import type { Row } from "../../core/api/ranking";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { formatNumber, toDegrees } from "../../core/units";
 import { quantileOf } from "./columns";
 import { chosen, results, titleOfRow } from "./ranking";
 
-const words = text.ranking;
 const [WIDTH, HEIGHT, MARGIN] = [520, 360, 46];
 const LARGEST = 14;
 
@@ -48,13 +47,13 @@ export function Pareto() {
   const top = (value: number) => HEIGHT - MARGIN - y.place(value) * (HEIGHT - MARGIN - 10);
   return (
     <section class="surface card" aria-labelledby="ranking-pareto">
-      <h3 id="ranking-pareto">{words.pareto}</h3>
-      <p class="hint">{words.paretoHint}</p>
+      <h3 id="ranking-pareto">{t("ranking.pareto")}</h3>
+      <p class="hint">{t("ranking.paretoHint")}</p>
       <svg
         class="drawing ranking-pareto"
         viewBox={`0 0 ${WIDTH} ${HEIGHT}`}
         role="img"
-        aria-label={words.pareto}
+        aria-label={t("ranking.pareto")}
       >
         {x.ticks.map((tick) => (
           <g key={tick}>
@@ -73,10 +72,10 @@ export function Pareto() {
           </g>
         ))}
         <text x={WIDTH / 2 - 20} y={HEIGHT - 8} text-anchor="middle">
-          {words.positionAxis}
+          {t("ranking.positionAxis")}
         </text>
         <text transform={`translate(12 ${HEIGHT / 2}) rotate(-90)`} text-anchor="middle">
-          {words.stiffnessAxis}
+          {t("ranking.stiffnessAxis")}
         </text>
         {points.map(({ row, position, stiffness, torque }) => (
           <g key={row.key} class={chosen.value === row.key ? "is-chosen" : ""}>
@@ -86,12 +85,12 @@ export function Pareto() {
               r={Math.max(3, LARGEST * Math.sqrt(torque / most))}
             >
               <title>
-                {words.point(
-                  titleOfRow(row),
-                  formatNumber(position),
-                  formatNumber(stiffness),
-                  formatNumber(torque),
-                )}
+                {t("ranking.point", {
+                  law: titleOfRow(row),
+                  position: formatNumber(position),
+                  stiffness: formatNumber(stiffness),
+                  torque: formatNumber(torque),
+                })}
               </title>
             </circle>
             <text x={left(position) + 8} y={top(stiffness) - 6}>

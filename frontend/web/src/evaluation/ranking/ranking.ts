@@ -3,7 +3,7 @@ import { computed, signal } from "@preact/signals";
 import { openRankingSession, type Results, type Row, readRanking } from "../../core/api/ranking";
 import { createWork } from "../../core/jobs/work";
 import { titleOf } from "../../core/state/laws";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { sortRows } from "./columns";
 
 /** NDOBC with the gains that the project assumes for the paper. */
@@ -21,7 +21,7 @@ export const rows = computed<readonly Row[]>(() => {
 });
 
 export const titleOfRow = ({ key, law }: Pick<Row, "key" | "law">): string =>
-  key === DECLARED ? text.ranking.declared(titleOf(law)) : titleOf(law);
+  key === DECLARED ? t("ranking.declared", { title: titleOf(law) }) : titleOf(law);
 
 const { read, perform, ...work } = createWork();
 export const { problem, isBusy } = work;

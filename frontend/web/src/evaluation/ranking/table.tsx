@@ -1,10 +1,8 @@
 import type { Row } from "../../core/api/ranking";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { SortHeads } from "../../core/widgets/tables";
 import { COLUMNS, type Column } from "./columns";
 import { chosen, isBusy, openInLab, results, rows, sort, titleOfRow } from "./ranking";
-
-const words = text.ranking;
 
 function Cell({ column, row }: { column: Column; row: Row }) {
   const ranking = results.value;
@@ -12,13 +10,19 @@ function Cell({ column, row }: { column: Column; row: Row }) {
   const shown = column.write(row, ranking);
   const scenario = column.scenarioOf?.(row);
   if (scenario === undefined) return <td class="number">{shown}</td>;
-  const { name } = words.columns[column.key];
   return (
     <td class="number">
       <button
         type="button"
-        title={words.see(titleOfRow(row), name)}
-        aria-label={words.seeLabel(titleOfRow(row), name, shown)}
+        title={t("ranking.see", {
+          law: titleOfRow(row),
+          column: t(`ranking.columns.${column.key}.name`),
+        })}
+        aria-label={t("ranking.seeLabel", {
+          law: titleOfRow(row),
+          column: t(`ranking.columns.${column.key}.name`),
+          value: shown,
+        })}
         disabled={isBusy.value !== ""}
         onClick={() => void openInLab(row.key, scenario)}
       >
@@ -35,15 +39,15 @@ interface TableProps {
 /** One row per entry; its name opens its description, a fixed scenario opens its worst run. */
 export function RankingTable({ columns = COLUMNS }: TableProps) {
   return (
-    <section class="surface scroll" aria-label={words.table}>
+    <section class="surface scroll" aria-label={t("ranking.table")}>
       <table class="table wide-table ranking-table">
-        <caption class="visually-hidden">{words.tableHint}</caption>
+        <caption class="visually-hidden">{t("ranking.tableHint")}</caption>
         <thead>
           <tr>
             <th scope="col" class="is-name">
-              {words.law}
+              {t("ranking.law")}
             </th>
-            <SortHeads columns={columns} words={words.columns} sort={sort} />
+            <SortHeads columns={columns} words="ranking.columns" sort={sort} />
           </tr>
         </thead>
         <tbody>
@@ -53,7 +57,7 @@ export function RankingTable({ columns = COLUMNS }: TableProps) {
                 <button
                   type="button"
                   aria-pressed={chosen.value === row.key}
-                  title={words.chooseHint}
+                  title={t("ranking.chooseHint")}
                   onClick={() => {
                     chosen.value = row.key;
                   }}

@@ -1,7 +1,7 @@
 import { useMemo } from "preact/hooks";
 import { otherAxis } from "../../core/plots/axes";
 import { drawnCurve, type StaticChart, useStaticChart } from "../../core/plots/staticchart";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { columnOf, endedInFault, lawLineStyles, marks, marksOf, screenValues } from "./drawnrows";
 import { distribute, extentOf, scaleOf, spreadsByRatios } from "./points";
 import { ColumnChoice } from "./scatter";
@@ -9,7 +9,6 @@ import { axes, brush, rows, study } from "./studies";
 import { nameColumn } from "./studyview";
 import { LawName } from "./tables";
 
-const words = text.studies;
 const POINTS = 240;
 
 /** Positions on the axis of the metric, linear or logarithmic. */
@@ -41,7 +40,7 @@ export function Distribution() {
       look: {
         padding: [8, 12, 0, 0],
         scales: { x: { time: false, distr: isLog ? 3 : 1 }, y: { range: () => [0, 102] } },
-        axes: [otherAxis("x", { isLog }), otherAxis("y", { label: words.below })],
+        axes: [otherAxis("x", { isLog }), otherAxis("y", { label: t("studies.below") })],
         series: [{}, ...lineStyles.map((lineStyle) => drawnCurve({ ...lineStyle, width: 2 }))],
       },
       data: [at, ...curves],
@@ -50,14 +49,14 @@ export function Distribution() {
   );
   const host = useStaticChart(chart);
   return (
-    <section class="surface card" aria-label={words.distribution}>
-      <h3>{words.distribution}</h3>
-      <ColumnChoice part="metric" label={words.metric} isMetric />
+    <section class="surface card" aria-label={t("studies.distribution")}>
+      <h3>{t("studies.distribution")}</h3>
+      <ColumnChoice part="metric" label={t("studies.metric")} isMetric />
       <div
         class="studies-canvas is-low"
         ref={host}
         role="img"
-        aria-label={`${words.distribution}: ${column ? nameColumn(column) : metric}`}
+        aria-label={`${t("studies.distribution")}: ${column ? nameColumn(column) : metric}`}
       />
       <p class="row small">
         {laws.map((law, place) => (
@@ -65,7 +64,8 @@ export function Distribution() {
         ))}
       </p>
       <p class="hint">
-        {words.of(brush.value !== null)}; {words.distributionHint}
+        {brush.value !== null ? t("studies.ofBrushed") : t("studies.ofShown")};{" "}
+        {t("studies.distributionHint")}
       </p>
     </section>
   );

@@ -1,5 +1,5 @@
 import { formatShare } from "../../core/quantities";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { formatNumber } from "../../core/units";
 import { planes, shownMarks, succeeded } from "./drawnrows";
 import { countCells, cutBins } from "./points";
@@ -7,7 +7,6 @@ import { valuesOf } from "./rows";
 import { shareOf } from "./shares";
 import { axes, brush, rows, setBrush } from "./studies";
 
-const words = text.studies;
 const WIDTH = 320;
 const HEIGHT = 240;
 
@@ -28,14 +27,14 @@ export function SuccessMap() {
   const cells = countCells(at, height, succeeded.value, shownMarks.value, edges);
   const [columns, lines] = [edges[0].length - 1, edges[1].length - 1];
   return (
-    <section class="surface card" aria-label={words.map}>
-      <h3>{words.map}</h3>
+    <section class="surface card" aria-label={t("studies.map")}>
+      <h3>{t("studies.map")}</h3>
       <svg
         class="drawing sunken studies-map"
         viewBox={`0 0 ${WIDTH} ${HEIGHT}`}
         preserveAspectRatio="none"
         role="img"
-        aria-label={`${words.map}: ${up.label} / ${across.label}`}
+        aria-label={`${t("studies.map")}: ${up.label} / ${across.label}`}
       >
         {cells.map(({ column, line, runs, good: held }) => {
           const share = shareOf(held, runs);
@@ -66,10 +65,11 @@ export function SuccessMap() {
         <span>→ {formatSpan(across.label, edges[0])}</span>
       </p>
       <p class="row hint studies-scale" aria-hidden="true">
-        {words.mapScale(0)} <i /> {words.mapScale(100)}
+        {t("studies.mapScale", { share: 0 })} <i /> {t("studies.mapScale", { share: 100 })}
       </p>
       <p class="hint">
-        {words.of(brush.value !== null)}, {words.mapHint}
+        {brush.value !== null ? t("studies.ofBrushed") : t("studies.ofShown")},{" "}
+        {t("studies.mapHint")}
       </p>
     </section>
   );

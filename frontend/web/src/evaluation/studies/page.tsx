@@ -3,7 +3,7 @@ import { type Study, tableOf } from "../../core/api/studies";
 import { isJobRunning, JobProgress } from "../../core/jobs/progress";
 import { mayCall } from "../../core/state/control";
 import { titleOf } from "../../core/state/laws";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { Example, PageWithForm } from "../../core/widgets/pagelayout";
 import { Popup } from "../../core/widgets/popup";
 import { ResultMenu } from "../campaign/resultmenu";
@@ -34,13 +34,11 @@ import {
 } from "./studies";
 import { LawTable, Sensitivity } from "./tables";
 
-const words = text.studies;
-
 function SavedStudies() {
   return (
     <ResultMenu
-      title={words.kept}
-      loading={list.value === null && problem.value === "" && words.loading}
+      title={t("studies.kept")}
+      loading={list.value === null && problem.value === "" && t("studies.loading")}
       shown={chosenName.value}
       results={(list.value?.saved ?? []).map((saved) => ({
         key: saved.name,
@@ -49,8 +47,8 @@ function SavedStudies() {
         name: saved.name,
         isExample: saved.is_example,
         state: [
-          words.state(saved.done, saved.rows),
-          ...(saved.job && isJobRunning(saved.job) ? [text.jobs.status[saved.job.status]] : []),
+          t("studies.state", { done: saved.done, rows: saved.rows }),
+          ...(saved.job && isJobRunning(saved.job) ? [t(`jobs.status.${saved.job.status}`)] : []),
         ].join(", "),
       }))}
     />
@@ -63,25 +61,25 @@ function Progress({ shownStudy }: { shownStudy: Study }) {
   return (
     <JobProgress
       job={job}
-      done={words.state(shownStudy.done, shownStudy.rows)}
+      done={t("studies.state", { done: shownStudy.done, rows: shownStudy.rows })}
       total={shownStudy.rows}
-      label={words.progress(shownStudy.name)}
+      label={t("studies.progress", { name: shownStudy.name })}
       onCancel={() => void cancel()}
     >
       {shownStudy.done < shownStudy.rows && (
         <button
           type="button"
           class="button"
-          title={words.goOnHint}
+          title={t("studies.goOnHint")}
           disabled={isBusy.value !== ""}
           onClick={() => void startNewStudy({ source: shownStudy.name })}
         >
-          {words.goOn}
+          {t("studies.goOn")}
         </button>
       )}
       {shownStudy.done > 0 && (
-        <a class="button" href={tableOf(shownStudy.name)} download title={words.tableHint}>
-          {words.table}
+        <a class="button" href={tableOf(shownStudy.name)} download title={t("studies.tableHint")}>
+          {t("studies.table")}
         </a>
       )}
     </JobProgress>
@@ -94,13 +92,13 @@ function Deletion({ shownStudy }: { shownStudy: Study }) {
   return (
     <Popup
       class="button"
-      title={words.deleteHint}
-      button={isGone ? words.deleting : words.delete}
+      title={t("studies.deleteHint")}
+      button={isGone ? t("studies.deleting") : t("studies.delete")}
       isDisabled={isBusy.value !== ""}
     >
       {(close) => (
         <>
-          <p>{words.deleteSure(shownStudy.name, shownStudy.done)}</p>
+          <p>{t("studies.deleteSure", { name: shownStudy.name, done: shownStudy.done })}</p>
           <button
             type="button"
             class="button"
@@ -109,7 +107,7 @@ function Deletion({ shownStudy }: { shownStudy: Study }) {
               void remove(shownStudy.name);
             }}
           >
-            {words.deleteNow}
+            {t("studies.deleteNow")}
           </button>
         </>
       )}
@@ -133,10 +131,14 @@ function StudyView({ shownStudy }: { shownStudy: Study }) {
         <Progress shownStudy={shownStudy} />
         {count > 0 && (
           <p class="row studies-brushed">
-            <span class="muted">{words.marks}</span>{" "}
-            <b>{words.brushed(brushedCount.value, count)}</b>
+            <span class="muted">{t("studies.marks")}</span>{" "}
+            <b>
+              {brushedCount.value === count
+                ? t("studies.allRuns", { total: count })
+                : t("studies.brushed", { brushed: brushedCount.value, total: count })}
+            </b>
             <label>
-              <span class="muted rigid">{words.shown}</span>
+              <span class="muted rigid">{t("studies.shown")}</span>
               <select
                 value={shownLaw.value || EVERY_LAW}
                 onChange={(event) => setView({ law: event.currentTarget.value })}
@@ -146,20 +148,22 @@ function StudyView({ shownStudy }: { shownStudy: Study }) {
                     {titleOf(law)}
                   </option>
                 ))}
-                <option value={EVERY_LAW}>{words.everyLaw}</option>
+                <option value={EVERY_LAW}>{t("studies.everyLaw")}</option>
               </select>
             </label>
             {brush.value && (
               <button type="button" class="button" onClick={() => setBrush(null)}>
-                {words.clear}
+                {t("studies.clear")}
               </button>
             )}
           </p>
         )}
-        {total > count && <p class="hint">{words.thinned(count, total)}</p>}
+        {total > count && <p class="hint">{t("studies.thinned", { shown: count, total })}</p>}
       </div>
       {count === 0 ? (
-        <p class="hint wide">{shownStudy.done === 0 ? words.empty : words.loadingRuns}</p>
+        <p class="hint wide">
+          {shownStudy.done === 0 ? t("studies.empty") : t("studies.loadingRuns")}
+        </p>
       ) : (
         <>
           <LawTable />
@@ -188,8 +192,8 @@ export function StudiesPage() {
   const shownStudy = study.value;
   return (
     <PageWithForm
-      title={words.title}
-      lead={words.lead}
+      title={t("studies.title")}
+      lead={t("studies.lead")}
       problem={problem.value}
       side={
         <>
@@ -199,7 +203,7 @@ export function StudiesPage() {
       }
     >
       {shownStudy === null ? (
-        <p class="hint">{problem.value === "" && words.loading}</p>
+        <p class="hint">{problem.value === "" && t("studies.loading")}</p>
       ) : (
         <StudyView shownStudy={shownStudy} />
       )}

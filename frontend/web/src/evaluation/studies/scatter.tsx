@@ -3,7 +3,7 @@ import { useMemo } from "preact/hooks";
 import type uPlot from "uplot";
 import { palette } from "../../core/plots/linestyles";
 import { useStaticChart } from "../../core/plots/staticchart";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { NumberField } from "../../core/widgets/numberinput";
 import { paintDots } from "./dots";
 import {
@@ -32,7 +32,6 @@ import {
 } from "./studies";
 import { axesOf, nameColumn, type Plane } from "./studyview";
 
-const words = text.studies;
 const REACH_PX = 14;
 
 export function ColumnChoice({
@@ -84,11 +83,11 @@ function Ends({ plane }: { plane: Plane }) {
   return (
     <div class="form cells" style={{ "--cell": "90px" }}>
       {(["x", "y"] as const).map((way) => {
-        const axis = way === "x" ? words.x : words.y;
+        const axis = way === "x" ? t("studies.x") : t("studies.y");
         return ([0, 1] as const).map((end) => (
           <NumberField
             key={`${way}${end}`}
-            label={end === 0 ? words.from(axis) : words.to(axis)}
+            label={end === 0 ? t("studies.from", { axis }) : t("studies.to", { axis })}
             value={held === null ? null : held[way][end]}
             digits={4}
             onCommit={(value) => set(way, end, value)}
@@ -166,10 +165,10 @@ export function Scatter({ plane }: { plane: Plane }) {
     0,
   );
   return (
-    <section class="surface card" aria-label={words.plane[plane]}>
+    <section class="surface card" aria-label={t(`studies.plane.${plane}`)}>
       <div class="pair form">
-        <ColumnChoice part={`${plane}y`} label={words.y} />
-        <ColumnChoice part={`${plane}x`} label={words.x} />
+        <ColumnChoice part={`${plane}y`} label={t("studies.y")} />
+        <ColumnChoice part={`${plane}x`} label={t("studies.x")} />
       </div>
       <div
         class="studies-canvas"
@@ -177,12 +176,16 @@ export function Scatter({ plane }: { plane: Plane }) {
         role="application"
         // biome-ignore lint/a11y/noNoninteractiveTabindex: arrow keys move from dot to dot
         tabIndex={0}
-        aria-label={words.dotsLabel(across.label, up.label, brushedCount.value)}
-        title={words.dotsHint}
+        aria-label={t("studies.dotsLabel", {
+          y: up.label,
+          x: across.label,
+          count: brushedCount.value,
+        })}
+        title={t("studies.dotsHint")}
         onKeyDown={onKey}
       />
       <Ends plane={plane} />
-      {missing > 0 && <p class="hint">{words.missing(missing)}</p>}
+      {missing > 0 && <p class="hint">{t("studies.missing", { count: missing })}</p>}
     </section>
   );
 }

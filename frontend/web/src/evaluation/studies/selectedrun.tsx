@@ -1,19 +1,17 @@
 import type { StudyRow } from "../../core/api/studies";
 import { writeFault } from "../../core/state/faults";
 import { titleOf } from "../../core/state/laws";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { formatNumber } from "../../core/units";
 import { isBusy, selectedRows, showRuns, study } from "./studies";
 import { factorOf, nameColumn } from "./studyview";
 
-const words = text.studies;
-
 const outcomeOf = (row: StudyRow): string =>
   row.fault !== null
-    ? words.outcome.fault(writeFault(String(row.fault)))
+    ? t("studies.outcome.fault", { code: writeFault(String(row.fault)) })
     : row.succeeded
-      ? words.outcome.good
-      : words.outcome.missed;
+      ? t("studies.outcome.good")
+      : t("studies.outcome.missed");
 
 function Cell({ row, name, unit }: { row: StudyRow; name: string; unit: string }) {
   const value = row[name];
@@ -32,11 +30,11 @@ export function SelectedRun() {
   return (
     <section
       class="surface card wide"
-      aria-label={words.row(numbers.at(-1) ?? 0)}
+      aria-label={t("studies.row", { row: numbers.at(-1) ?? 0 })}
       aria-live="polite"
     >
       {rows.length === 0 ? (
-        <p class="hint">{words.pickHint}</p>
+        <p class="hint">{t("studies.pickHint")}</p>
       ) : (
         <>
           <table class="table">
@@ -45,18 +43,18 @@ export function SelectedRun() {
                 <td />
                 {rows.map((row) => (
                   <th key={Number(row.row)} scope="col">
-                    {words.row(Number(row.row))}
+                    {t("studies.row", { row: Number(row.row) })}
                     <small class="block">
                       {titleOf(String(row.law))}, {outcomeOf(row)}
                     </small>
                     <button
                       type="button"
                       class="button"
-                      title={words.seeHint}
+                      title={t("studies.seeHint")}
                       disabled={isBusy.value !== ""}
                       onClick={() => void showRuns([Number(row.row)])}
                     >
-                      {words.see}
+                      {t("studies.see")}
                     </button>
                   </th>
                 ))}
@@ -80,10 +78,10 @@ export function SelectedRun() {
               disabled={isBusy.value !== ""}
               onClick={() => void showRuns(numbers)}
             >
-              {words.overlay}
+              {t("studies.overlay")}
             </button>
           )}
-          {isBusy.value === "see" && <p role="status">{words.seeing}</p>}
+          {isBusy.value === "see" && <p role="status">{t("studies.seeing")}</p>}
         </>
       )}
     </section>

@@ -2,7 +2,7 @@ import { useState } from "preact/hooks";
 import { checkStudy, type StudyChanges, type StudyPlan } from "../../core/api/studies";
 import { describeError } from "../../core/state/actions";
 import { titleOf } from "../../core/state/laws";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { SelectField } from "../../core/widgets/form";
 import { NumberField } from "../../core/widgets/numberinput";
 import { Boxes, LawBoxes } from "../../core/widgets/pagelayout";
@@ -10,7 +10,6 @@ import { OWN, SourceField } from "../campaign/sourcefield";
 import { isBusy, list, problem, startNewStudy } from "./studies";
 import { factorOf, nameColumn } from "./studyview";
 
-const words = text.studies;
 const FIRST = "load";
 const MAX_RUNS = 1_000_000_000;
 
@@ -60,10 +59,10 @@ export function Start() {
         void startNewStudy(build());
       }}
     >
-      <h3>{words.begin}</h3>
+      <h3>{t("studies.begin")}</h3>
       <SourceField
-        label={words.source}
-        own={{ name: words.own, label: words.text }}
+        label={t("studies.source")}
+        own={{ name: t("studies.own"), label: t("studies.text") }}
         templates={builtIn}
         source={source}
         text={own}
@@ -75,18 +74,18 @@ export function Start() {
         }
       />
       <NumberField
-        label={words.runs}
-        title={words.runsHint}
+        label={t("studies.runs")}
+        title={t("studies.runsHint")}
         isInteger
         min={1}
         max={MAX_RUNS}
-        placeholder={words.asInStudy}
+        placeholder={t("studies.asInStudy")}
         value={runs}
         onInput={(value) => change(() => setRuns(value))}
         onEmpty={() => change(() => setRuns(null))}
       />
-      <label title={words.nameHint}>
-        <span>{words.name}</span>
+      <label title={t("studies.nameHint")}>
+        <span>{t("studies.name")}</span>
         <input
           type="text"
           maxLength={64}
@@ -97,16 +96,18 @@ export function Start() {
       </label>
       <details>
         <summary>
-          {words.laws}: {laws.length === 0 ? words.asInStudy : laws.map(titleOf).join(", ")}
+          {t("studies.laws")}:{" "}
+          {laws.length === 0 ? t("studies.asInStudy") : laws.map(titleOf).join(", ")}
         </summary>
-        <p class="hint">{words.lawsHint}</p>
+        <p class="hint">{t("studies.lawsHint")}</p>
         <LawBoxes laws={laws} onChange={(next) => change(() => setLaws(next))} />
       </details>
       <details>
         <summary>
-          {words.metrics}: {chosenMetrics.length === 0 ? words.asInStudy : chosenMetrics.length}
+          {t("studies.metrics")}:{" "}
+          {chosenMetrics.length === 0 ? t("studies.asInStudy") : chosenMetrics.length}
         </summary>
-        <p class="hint">{words.metricsHint}</p>
+        <p class="hint">{t("studies.metricsHint")}</p>
         <Boxes
           offered={offered}
           chosen={chosenMetrics}
@@ -114,17 +115,17 @@ export function Start() {
         />
       </details>
       <SelectField
-        label={words.success}
-        title={words.successHint}
+        label={t("studies.success")}
+        title={t("studies.successHint")}
         value={metric}
         options={["", ...offered.map((option) => option.name)]}
         name={(metricName) =>
-          offered.find(({ name }) => name === metricName)?.title ?? words.asInStudy
+          offered.find(({ name }) => name === metricName)?.title ?? t("studies.asInStudy")
         }
         onChoose={(chosen) => change(() => setMetric(chosen))}
       />
       <NumberField
-        label={words.most}
+        label={t("studies.most")}
         unit={successMetric?.unit ?? ""}
         disabled={metric === ""}
         value={bound}
@@ -138,15 +139,19 @@ export function Start() {
             if (event.currentTarget.form?.reportValidity()) void check();
           }}
         >
-          {words.check}
+          {t("studies.check")}
         </button>
         <button type="submit" class="button is-primary" disabled={isBusy.value !== ""}>
-          {words.start}
+          {t("studies.start")}
         </button>
       </div>
       {plan && (
         <p class="hint" role="status">
-          {words.checked(plan.samples, plan.rows, plan.laws.map(titleOf).join(", "))}
+          {t("studies.checked", {
+            samples: plan.samples,
+            rows: plan.rows,
+            laws: plan.laws.map(titleOf).join(", "),
+          })}
         </p>
       )}
     </form>

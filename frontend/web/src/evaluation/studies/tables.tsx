@@ -4,7 +4,7 @@ import { dotOf } from "../../core/plots/linestyles";
 import { formatShare } from "../../core/quantities";
 import { writeFault } from "../../core/state/faults";
 import { titleOf } from "../../core/state/laws";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { formatNumber } from "../../core/units";
 import { Table } from "../../core/widgets/tables";
 import { columnOf, endedInFault, lawLineStyles, marksOf, succeeded } from "./drawnrows";
@@ -12,18 +12,18 @@ import { shareOf } from "./shares";
 import { axes, brush, indices, study, summary } from "./studies";
 import { factorOf, nameColumn, shownUnit } from "./studyview";
 
-const words = text.studies;
-
 /** An estimate with its interval times a factor, or a note that there is no interval. */
 function formatEstimate({ value, low, high }: Estimate, factor: number, decimals?: number): string {
-  const shown = (quantity: number | null) =>
-    quantity === null ? null : formatNumber(quantity * factor, decimals ?? 3, decimals);
-  return words.estimate(shown(value) ?? "–", shown(low), shown(high));
+  const write = (quantity: number | null) =>
+    formatNumber(quantity === null ? null : quantity * factor, decimals ?? 3, decimals);
+  return low === null
+    ? t("studies.noInterval", { value: write(value) })
+    : t("studies.estimate", { value: write(value), low: write(low), high: write(high) });
 }
 
 const NONE: Estimate = { value: null, low: null, high: null };
 const formatP = (value: number | null | undefined): string =>
-  value != null && value < 1e-4 ? words.pSmall : formatNumber(value, 2);
+  value != null && value < 1e-4 ? t("studies.pSmall") : formatNumber(value, 2);
 
 /** Results of a law in the brush, with intervals once the server has sent them. */
 function inBrush(place: number): string {
@@ -52,24 +52,24 @@ export function LawTable() {
   const metric = columnOf(axes.value.metric ?? "");
   const formatMetric = (value: number | null | undefined) =>
     value === null
-      ? words.fault
+      ? t("studies.fault")
       : formatNumber((value ?? Number.NaN) * factorOf(metric?.unit ?? ""), 3);
   return (
-    <section class="surface card wide" aria-label={words.byLaw}>
-      <h3>{words.byLaw}</h3>
+    <section class="surface card wide" aria-label={t("studies.byLaw")}>
+      <h3>{t("studies.byLaw")}</h3>
       {studySummary === null && (
         <p class="hint" role="status">
-          {isJobRunning(study.value?.job ?? null) ? words.later : words.summing}
+          {isJobRunning(study.value?.job ?? null) ? t("studies.later") : t("studies.summing")}
         </p>
       )}
       <Table
         heads={[
-          words.law,
-          words.all,
-          words.succeeded,
-          ...(brush.value ? [words.inBrush] : []),
-          words.faults,
-          ...(metric ? [words.median(nameColumn(metric))] : []),
+          t("studies.law"),
+          t("studies.all"),
+          t("studies.succeeded"),
+          ...(brush.value ? [t("studies.inBrush")] : []),
+          t("studies.faults"),
+          ...(metric ? [t("studies.median", { metric: nameColumn(metric) })] : []),
         ]}
       >
         {(study.value?.laws ?? []).map((law, place) => {
@@ -86,8 +86,10 @@ export function LawTable() {
               <td>{lawRow ? formatShare(lawRow.success) : "–"}</td>
               {brush.value && <td>{inBrush(place)}</td>}
               <td>
-                {lawRow ? faults.join(", ") || words.noFaults : "–"}
-                {lawRow && lawRow.refused > 0 && `; ${words.refused(lawRow.refused)}`}
+                {lawRow ? faults.join(", ") || t("studies.noFaults") : "–"}
+                {lawRow &&
+                  lawRow.refused > 0 &&
+                  `; ${t("studies.refused", { count: lawRow.refused })}`}
               </td>
               {metric && (
                 <td>
@@ -102,15 +104,20 @@ export function LawTable() {
         const difference = metric && pair.differences[metric.name];
         return (
           <p key={pair.other}>
-            <b>{words.pair(titleOf(pair.one), titleOf(pair.other))}</b>{" "}
-            {words.points(formatEstimate(pair.success, 100))};{" "}
-            {words.pSuccess(formatP(pair.success_p))}; {words.only(pair.only_one, pair.only_other)}.
+            <b>{t("studies.pair", { first: titleOf(pair.one), second: titleOf(pair.other) })}</b>{" "}
+            {t("studies.points", { estimate: formatEstimate(pair.success, 100) })};{" "}
+            {t("studies.pSuccess", { value: formatP(pair.success_p) })};{" "}
+            {t("studies.only", {
+              samples: t("studies.samples", { count: pair.only_one }),
+              second: pair.only_other,
+            })}
+            .
             {metric && difference && (
               <>
                 {" "}
-                {words.difference(nameColumn(metric), pair.whole)}:{" "}
+                {t("studies.difference", { metric: nameColumn(metric), count: pair.whole })}:{" "}
                 {formatEstimate(difference, factorOf(metric.unit))} {shownUnit(metric.unit)};{" "}
-                {words.pMetric(formatP(pair.p_values[metric.name]))}
+                {t("studies.pMetric", { value: formatP(pair.p_values[metric.name]) })}
               </>
             )}
           </p>
@@ -124,9 +131,9 @@ export function LawTable() {
 export function Sensitivity() {
   if (indices.value.length === 0) return null;
   return (
-    <section class="surface card wide" aria-label={words.sensitivity}>
-      <h3>{words.sensitivity}</h3>
-      <p class="hint">{words.sensitivityHint}</p>
+    <section class="surface card wide" aria-label={t("studies.sensitivity")}>
+      <h3>{t("studies.sensitivity")}</h3>
+      <p class="hint">{t("studies.sensitivityHint")}</p>
       {indices.value.map(({ law, first_order: own, total_order: total }) => (
         <div key={law} class="studies-bars">
           <h4>{titleOf(law)}</h4>
@@ -139,7 +146,7 @@ export function Sensitivity() {
                   {([own[name], total[name]] as const).map((estimate, at) => (
                     <dd
                       key={at === 0 ? "own" : "total"}
-                      title={at === 0 ? words.itself : words.together}
+                      title={at === 0 ? t("studies.itself") : t("studies.together")}
                     >
                       <i
                         class={at === 0 ? "is-own" : "is-total"}

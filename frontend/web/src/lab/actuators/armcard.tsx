@@ -3,11 +3,9 @@ import { useEffect, useState } from "preact/hooks";
 import { type ArmRow, openArm, readArms } from "../../core/api/arm";
 import { explain } from "../../core/state/actions";
 import { actuators } from "../../core/state/actuators";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { Choice, SelectField } from "../../core/widgets/form";
 import { CardHead, useOpening } from "./opening";
-
-const words = text.arm;
 
 /** The joints' actuators: of the arm, until the user chooses others. */
 type Chosen = readonly [string, string];
@@ -37,17 +35,17 @@ export function ArmCard({ onProblem }: ArmCardProps) {
   const titleOf = (of: string) =>
     actuators.value?.find((actuator) => actuator.name === of)?.title ?? of;
   return (
-    <section class="surface stack card" aria-label={words.name}>
+    <section class="surface stack card" aria-label={t("arm.name")}>
       <CardHead
-        title={words.name}
-        hint={words.lead}
-        openHint={words.openHint}
-        label={isOpening ? words.opening : words.open}
+        title={t("arm.name")}
+        hint={t("arm.lead")}
+        openHint={t("arm.openHint")}
+        label={isOpening ? t("arm.opening") : t("arm.open")}
         isOpening={isOpening}
         onOpen={open}
       />
       <Choice
-        label={words.choose}
+        label={t("arm.choose")}
         options={arms.map(({ name: value, title }) => ({ value, label: title }))}
         value={arm.name}
         onChoose={(next) => {
@@ -58,14 +56,14 @@ export function ArmCard({ onProblem }: ArmCardProps) {
       <p translate>{arm.description}</p>
       <div class="form halves">
         <SelectField
-          label={words.actuatorOf(1)}
+          label={t("arm.actuatorOf", { joint: 1 })}
           value={first}
           options={names}
           name={titleOf}
           onChoose={(next) => setChosen([next, second])}
         />
         <SelectField
-          label={words.actuatorOf(2)}
+          label={t("arm.actuatorOf", { joint: 2 })}
           value={second}
           options={names}
           name={titleOf}

@@ -3,19 +3,18 @@ import { useEffect, useState } from "preact/hooks";
 import { type Datasheet, datasheetAddress, readDatasheet } from "../../core/api/actuators";
 import type { ActuatorRow } from "../../core/api/types";
 import { explain } from "../../core/state/actions";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { formatNumber, toDegrees } from "../../core/units";
 import { ErrorLine } from "../../core/widgets/form";
 import { Table } from "../../core/widgets/tables";
 import { type Curve, Curves } from "../design/curves";
 
-const words = text.actuators;
 type Points = readonly (readonly [number, number])[];
 
 const curveOf = (points: Points, look: Curve["look"] = "tried"): Curve => ({ look, points });
 
 function Plots({ datasheet }: { datasheet: Datasheet }) {
-  const deflection = { label: words.deflection };
+  const deflection = { label: t("actuators.deflection") };
   const overDeflection = (key: "torque_nm" | "stiffness_at_nm_per_rad") =>
     datasheet.presets.map((preset) =>
       curveOf(preset.deflection_rad.map((rad, at) => [toDegrees(rad), preset[key][at] ?? 0])),
@@ -28,42 +27,42 @@ function Plots({ datasheet }: { datasheet: Datasheet }) {
     <>
       <div class="cells">
         <Curves
-          title={words.torque}
-          summary={words.summary(words.torque, count)}
+          title={t("actuators.torque")}
+          summary={t("actuators.summary", { what: t("actuators.torque"), count })}
           x={deflection}
-          y={{ label: words.torqueAxis }}
+          y={{ label: t("actuators.torqueAxis") }}
           curves={overDeflection("torque_nm")}
         />
         <Curves
-          title={words.stiffness}
-          summary={words.summary(words.stiffness, count)}
+          title={t("actuators.stiffness")}
+          summary={t("actuators.summary", { what: t("actuators.stiffness"), count })}
           x={deflection}
-          y={{ label: words.stiffnessAxis }}
+          y={{ label: t("actuators.stiffnessAxis") }}
           curves={overDeflection("stiffness_at_nm_per_rad")}
         />
         <Curves
-          title={words.workspace}
-          summary={words.summary(words.workspace, 2)}
-          x={{ label: words.torqueAxis }}
-          y={{ label: words.stiffnessAxis }}
+          title={t("actuators.workspace")}
+          summary={t("actuators.summary", { what: t("actuators.workspace"), count: 2 })}
+          x={{ label: t("actuators.torqueAxis") }}
+          y={{ label: t("actuators.stiffnessAxis") }}
           curves={bounds}
         />
         {datasheet.torque_speed.length > 0 && (
           <Curves
-            title={words.speeds}
-            summary={words.summary(words.speeds, 1)}
-            x={{ label: words.speed }}
-            y={{ label: words.torqueAxis }}
+            title={t("actuators.speeds")}
+            summary={t("actuators.summary", { what: t("actuators.speeds"), count: 1 })}
+            x={{ label: t("actuators.speed") }}
+            y={{ label: t("actuators.torqueAxis") }}
             curves={[curveOf(datasheet.torque_speed.map(([speed, torque]) => [speed, torque]))]}
           />
         )}
       </div>
       <p class="hint">
-        {words.presets(
-          datasheet.presets
+        {t("actuators.presets", {
+          sigmas: datasheet.presets
             .map((preset) => formatNumber(preset.stiffness_nm_per_rad, 3))
             .join(", "),
-        )}
+        })}
       </p>
     </>
   );
@@ -87,27 +86,30 @@ export function DatasheetCard({ actuator: { name } }: { actuator: ActuatorRow })
     };
   }, [name]);
   return (
-    <section class="surface stack card" aria-label={words.datasheet}>
+    <section class="surface stack card" aria-label={t("actuators.datasheet")}>
       <div class="spread">
         <div>
-          <h3>{words.datasheet}</h3>
-          <p class="hint">{words.datasheetLead}</p>
+          <h3>{t("actuators.datasheet")}</h3>
+          <p class="hint">{t("actuators.datasheetLead")}</p>
         </div>
         <p class="row">
           <a class="button" href={datasheetAddress(name, "pdf")} download>
-            {words.pdf}
+            {t("actuators.pdf")}
           </a>
           <a class="button" href={datasheetAddress(name, "json")} download>
-            {words.json}
+            {t("actuators.json")}
           </a>
         </p>
       </div>
       <ErrorLine>{problem}</ErrorLine>
       {datasheet === null ? (
-        problem === "" && <p class="hint">{words.measuring}</p>
+        problem === "" && <p class="hint">{t("actuators.measuring")}</p>
       ) : (
         <>
-          <Table label={words.datasheet} heads={[words.quantity, words.value]}>
+          <Table
+            label={t("actuators.datasheet")}
+            heads={[t("actuators.quantity"), t("actuators.value")]}
+          >
             {datasheet.rows.map(([quantity, value]) => (
               <tr key={quantity}>
                 <th scope="row">{quantity}</th>
@@ -115,15 +117,15 @@ export function DatasheetCard({ actuator: { name } }: { actuator: ActuatorRow })
               </tr>
             ))}
           </Table>
-          <h4>{words.published}</h4>
+          <h4>{t("actuators.published")}</h4>
           {datasheet.published_rows.length === 0 ? (
-            <p class="hint">{words.unpublished}</p>
+            <p class="hint">{t("actuators.unpublished")}</p>
           ) : (
-            <ul class="bullets" aria-label={words.published}>
+            <ul class="bullets" aria-label={t("actuators.published")}>
               {datasheet.published_rows.map(
                 ([quantity, measured, published, deviation, source]) => (
                   <li key={quantity}>
-                    {quantity}: {words.comparison(measured, published, deviation)}
+                    {quantity}: {t("actuators.comparison", { measured, published, deviation })}
                     <p class="hint">{source}</p>
                   </li>
                 ),

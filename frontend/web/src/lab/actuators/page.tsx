@@ -3,7 +3,7 @@ import { useEffect, useState } from "preact/hooks";
 import { openActuator, readActuator } from "../../core/api/actuators";
 import type { ActuatorRow } from "../../core/api/types";
 import { actuators, SVSA } from "../../core/state/actuators";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { formatInput } from "../../core/units";
 import { Choice } from "../../core/widgets/form";
 import { Page } from "../../core/widgets/pagelayout";
@@ -14,7 +14,6 @@ import { ARM, ArmCard } from "./armcard";
 import { DatasheetCard } from "./datasheet";
 import { CardHead, useOpening } from "./opening";
 
-const words = text.actuators;
 const POLL_MS = 1000;
 
 const shown = (value: number | string): string =>
@@ -22,7 +21,11 @@ const shown = (value: number | string): string =>
 
 function Parameters({ actuator }: { actuator: ActuatorRow }) {
   return (
-    <Table label={words.parameters} caption={words.parameters} heads={words.heads}>
+    <Table
+      label={t("actuators.parameters")}
+      caption={t("actuators.parameters")}
+      heads={t("actuators.heads", { returnObjects: true })}
+    >
       {actuator.parameters.map((parameter) => (
         <tr key={parameter.name}>
           <th scope="row">
@@ -42,9 +45,9 @@ function Parameters({ actuator }: { actuator: ActuatorRow }) {
 
 function describeRange({ limits, only_stiffness_nm_per_rad: only }: ActuatorRow): string {
   const torque = formatInput(limits.torque1_nm);
-  if (only !== null) return words.fixed(formatInput(only), torque);
+  if (only !== null) return t("actuators.fixed", { sigma: formatInput(only), torque });
   const [low, high] = [limits.stiffness_min_nm_per_rad, limits.stiffness_max_nm_per_rad];
-  return words.facts(formatInput(low), formatInput(high), torque);
+  return t("actuators.facts", { low: formatInput(low), high: formatInput(high), torque });
 }
 
 interface ActuatorProps {
@@ -71,19 +74,23 @@ function useCompiling(name: string, isWaiting: boolean): number {
 function Actuator({ actuator, onProblem }: ActuatorProps) {
   const [isOpening, open] = useOpening(() => openActuator(actuator.name), onProblem);
   const seconds = useCompiling(actuator.name, isOpening && !actuator.is_compiled);
-  const opening = actuator.is_compiled ? words.opening : words.compiling(actuator.title, seconds);
+  const opening = actuator.is_compiled
+    ? t("actuators.opening")
+    : seconds < 1
+      ? t("actuators.compiling", { title: actuator.title })
+      : t("actuators.compilingFor", { title: actuator.title, seconds: Math.round(seconds) });
   return (
     <section class="surface stack card" aria-label={actuator.title}>
       <CardHead
         title={actuator.title}
         hint={actuator.source}
-        openHint={words.openHint}
-        label={isOpening ? opening : words.open}
+        openHint={t("actuators.openHint")}
+        label={isOpening ? opening : t("actuators.open")}
         isOpening={isOpening}
         onOpen={open}
       />
       <p>{describeRange(actuator)}</p>
-      {actuator.name === SVSA && <p class="hint">{words.paper}</p>}
+      {actuator.name === SVSA && <p class="hint">{t("actuators.paper")}</p>}
       <Parameters actuator={actuator} />
     </section>
   );
@@ -99,17 +106,17 @@ export function ActuatorsPage() {
   const rows = actuators.value ?? [];
   const actuator = rows.find(({ name }) => name === named) ?? rows[0];
   return (
-    <Page title={words.title} lead={words.lead} problem={problem}>
+    <Page title={t("actuators.title")} lead={t("actuators.lead")} problem={problem}>
       {actuator === undefined ? (
-        <p class="hint">{words.loading}</p>
+        <p class="hint">{t("actuators.loading")}</p>
       ) : (
         <>
           <div class="actuators-choice">
             <Choice
-              label={words.choose}
+              label={t("actuators.choose")}
               options={[
                 ...rows.map(({ name, title }) => ({ value: name, label: title })),
-                { value: ARM, label: text.arm.name },
+                { value: ARM, label: t("arm.name") },
               ]}
               value={isOfArm ? ARM : actuator.name}
               onChoose={(name) => goTo({ kind: "actuators", actuator: name })}

@@ -12,10 +12,9 @@ import {
 } from "../../core/armgeometry";
 import { shownRing, shownSpan } from "../../core/plots/span";
 import type { SampleRing } from "../../core/stream/ring";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { formatNumber } from "../../core/units";
 
-const words = text.arm;
 /** Half of the width of the picture, in its units. */
 export const HALF = 200;
 /** Space around the largest distance of the tip. */
@@ -37,9 +36,9 @@ type Channel = "position_rad" | "position_reference_rad" | "stiffness_nm_per_rad
 /** In kN/m if the least is not a small number of them. */
 function describeExtremes({ least, greatest }: StiffnessEllipse): string {
   const [unit, factor] =
-    least < KILO / 10 ? ([words.newtons, 1] as const) : [words.kilonewtons, KILO];
+    least < KILO / 10 ? ([t("arm.newtons"), 1] as const) : [t("arm.kilonewtons"), KILO];
   const [low, high] = [least, greatest].map((k) => formatNumber(k / factor, 3));
-  return words.extremes(`${low}`, `${high}`, unit);
+  return t("arm.extremes", { least: `${low}`, greatest: `${high}`, unit });
 }
 
 /** Both joints of an arm (0: the own, 1: the comparison) at a sample. */
@@ -127,7 +126,7 @@ export class ArmPicture {
     const part = this.#find("ellipse");
     if (part === null || this.tip === null) return;
     part.style.visibility = ellipse === null ? "hidden" : "visible";
-    this.readout.textContent = ellipse === null ? words.straight : describeExtremes(ellipse);
+    this.readout.textContent = ellipse === null ? t("arm.straight") : describeExtremes(ellipse);
     if (ellipse === null) return;
     const [long, short] = axesOf(lengths, ellipse, most);
     const degrees = (-ellipse.angle * 180) / Math.PI;

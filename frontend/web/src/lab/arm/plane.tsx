@@ -13,12 +13,11 @@ import { armOf } from "../../core/state/joints";
 import { hungAtTip } from "../../core/state/plant";
 import { tipPush } from "../../core/state/push";
 import { samples } from "../../core/state/session";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { formatNumber } from "../../core/units";
 import { Problem } from "../../core/widgets/form";
 import { ArmPicture, HALF, MARGIN } from "./picture";
 
-const words = text.arm;
 /** The largest force of a push relative to that which a joint can hold at the reach. */
 const FORCE_SHARE = 0.5;
 /** Deflection of the springs to which a push may go, rad. */
@@ -120,19 +119,19 @@ export function TipPlane({ state, note }: { state: SessionState; note?: string }
   };
   const force = tipPush.held.value;
   return (
-    <section class="surface tip-plane" aria-label={words.plane}>
+    <section class="surface tip-plane" aria-label={t("arm.plane")}>
       <div class="row tip-plane-head">
-        <h2>{words.plane}</h2>
-        <p class="hint tabular tip-stiffness" title={words.ellipseHint}>
+        <h2>{t("arm.plane")}</h2>
+        <p class="hint tabular tip-stiffness" title={t("arm.ellipseHint")}>
           <span class="tip-ellipse-mark" aria-hidden="true" />
-          {words.stiffness} <strong class="number" ref={readout} />
+          {t("arm.stiffness")} <strong class="number" ref={readout} />
         </p>
         <span
           class={`tip-plane-hint small tabular end ${force === null ? "muted" : "strong tone is-warn"}`}
         >
           {force === null
-            ? words.pushHint
-            : words.pushing(formatNumber(Math.hypot(...force), 2, 1))}
+            ? t("arm.pushHint")
+            : t("arm.pushing", { force: formatNumber(Math.hypot(...force), 2, 1) })}
         </span>
       </div>
       {note && <p class="hint">{note}</p>}
@@ -143,7 +142,7 @@ export function TipPlane({ state, note }: { state: SessionState; note?: string }
           class="fill"
           viewBox={`${-HALF} ${-ABOVE * HALF} ${2 * HALF} ${(1 + ABOVE) * HALF}`}
           role="group"
-          aria-label={words.planeLabel}
+          aria-label={t("arm.planeLabel")}
           onPointerDown={(event) => {
             if (!takesCommands.peek() || !isGrab(event)) return;
             event.currentTarget.setPointerCapture(event.pointerId);
@@ -192,7 +191,7 @@ export function TipPlane({ state, note }: { state: SessionState; note?: string }
             class="tip-handle"
             data-tip
             role="button"
-            aria-label={words.push}
+            aria-label={t("arm.push")}
             aria-disabled={!takesCommands.value}
             tabIndex={0}
             onKeyDown={(event) => takesCommands.peek() && pressKey(event)}

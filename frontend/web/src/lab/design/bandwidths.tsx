@@ -1,12 +1,11 @@
 import { useId } from "preact/hooks";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { formatInput } from "../../core/units";
 import { NumberInput } from "../../core/widgets/numberinput";
 import { positionOf, type SliderRange, STEPS, valueAt } from "../../core/widgets/scale";
 import { draft, type Group, setDraftObserver, setDraftPoles } from "./draft";
 import { allAt, areTogether, BANDWIDTH_BOUNDS, bandwidthOf } from "./poles";
 
-const words = text.design;
 const POLES: SliderRange = { min: 5, max: 200, logarithmic: true };
 const OBSERVER: SliderRange = { min: 2, max: 300, logarithmic: true };
 
@@ -34,8 +33,8 @@ function Row({ look, label, name, note, value, range, onTry }: RowProps) {
         min={0}
         max={STEPS}
         value={positionOf(value, range)}
-        aria-label={text.controls.slider(name)}
-        aria-valuetext={`${formatInput(value, 3)} ${words.unit}`}
+        aria-label={t("controls.slider", { label: name })}
+        aria-valuetext={`${formatInput(value, 3)} ${t("design.unit")}`}
         onInput={(event) =>
           onTry(Number(formatInput(valueAt(event.currentTarget.valueAsNumber, range), 3)))
         }
@@ -45,7 +44,7 @@ function Row({ look, label, name, note, value, range, onTry }: RowProps) {
         label={name}
         value={value}
         digits={4}
-        unit={words.unit}
+        unit={t("design.unit")}
         {...BANDWIDTH_BOUNDS}
         describedBy={`${id}-note`}
         onInput={onTry}
@@ -62,9 +61,9 @@ function PolesRow({ group }: { group: Group }) {
   return (
     <Row
       look={group}
-      label={words[group]}
-      name={words.bandwidth(words[group])}
-      note={areTogether(poles) ? words.unit : words.mean}
+      label={t(`design.${group}`)}
+      name={t("design.bandwidth", { group: t(`design.${group}`) })}
+      note={areTogether(poles) ? t("design.unit") : t("design.mean")}
       value={bandwidthOf(poles)}
       range={POLES}
       onTry={(value) => setDraftPoles(group, allAt(poles.length, value))}
@@ -82,9 +81,9 @@ export function Bandwidths() {
       <PolesRow group="stiffness" />
       <Row
         look="observer"
-        label={`${words.observer} β`}
-        name={words.observerBandwidth}
-        note={isSpread ? observer.map((beta) => formatInput(beta, 3)).join(", ") : words.unit}
+        label={`${t("design.observer")} β`}
+        name={t("design.observerBandwidth")}
+        note={isSpread ? observer.map((beta) => formatInput(beta, 3)).join(", ") : t("design.unit")}
         value={observer[0]}
         range={OBSERVER}
         onTry={setDraftObserver}

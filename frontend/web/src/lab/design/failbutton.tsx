@@ -1,12 +1,10 @@
 import { useState } from "preact/hooks";
 import { simulateDesign } from "../../core/api/design";
 import { explain } from "../../core/state/actions";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { ErrorLine } from "../../core/widgets/form";
 import { draftPrediction } from "./draft";
 import { designRequest, draftResponse, stability } from "./stability";
-
-const words = text.stability;
 
 /** Whether the design would fail: rejected, unstable about rest, or a fault under the 3 kg. */
 const wouldFail = () =>
@@ -36,13 +34,13 @@ export function FailButton() {
       <button
         type="button"
         class="button bad"
-        title={words.failHint}
+        title={t("stability.failHint")}
         disabled={isBusy}
         onClick={() => void fail()}
       >
-        {words.fail}
+        {t("stability.fail")}
       </button>
-      <span class="hint">{words.failNote}</span>
+      <span class="hint">{t("stability.failNote")}</span>
       <ErrorLine>{problem}</ErrorLine>
     </div>
   );

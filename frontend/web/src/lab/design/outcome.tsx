@@ -1,12 +1,10 @@
 import type { Prediction } from "../../core/api/design";
 import { largestTorque } from "../../core/plots/channels";
 import { session } from "../../core/state/session";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { formatLapse, formatNumber } from "../../core/units";
 import { currentPrediction, draftPrediction, isPredicting } from "./draft";
 import { degreesOf, torqueOf, verdictOf } from "./words";
-
-const words = text.design;
 
 interface Line {
   label: string;
@@ -17,24 +15,24 @@ interface Line {
 }
 
 const noiseHint = (prediction: Prediction | null) =>
-  words.noiseHint[prediction?.noise?.encoders ?? "rig"];
+  t(`design.noiseHint.${prediction?.noise?.encoders ?? "rig"}`);
 const orDash = <T,>(value: T | null | undefined, format: (value: T) => string) =>
   value === null || value === undefined ? "\u2013" : format(value);
 
 function linesOf(prediction: Prediction | null): Line[] {
   const state = session.value;
   const noise = (name: string, key: "torque1_rms_nm" | "torque2_rms_nm"): Line => ({
-    label: words.noise(name),
+    label: t("design.noise", { torque: name }),
     hint: noiseHint(prediction),
     read: ({ noise }) =>
-      noise && noise[key] === null ? words.unstableLoop : orDash(noise?.[key], torqueOf),
+      noise && noise[key] === null ? t("design.unstableLoop") : orDash(noise?.[key], torqueOf),
   });
   const steady = (label: string, hint: string, key: "steady" | "fl"): Line => ({
     label,
     hint,
     read: (shown) =>
       shown[key] === null && shown.demand
-        ? words.none
+        ? t("design.none")
         : orDash(shown[key]?.position_error_rad, degreesOf),
   });
   const peak = (
@@ -42,23 +40,23 @@ function linesOf(prediction: Prediction | null): Line[] {
     key: "peak_torque1_nm" | "peak_torque2_nm",
     motor: "torque1_nm" | "torque2_nm",
   ): Line => ({
-    label: words.peak(name),
-    hint: words.peakHint,
+    label: t("design.peak", { torque: name }),
+    hint: t("design.peakHint"),
     read: ({ demand }) => orDash(demand?.[key], torqueOf),
     share: ({ demand }) => (demand && state ? demand[key] / largestTorque(state, motor) : null),
   });
   return [
     ...(prediction === null
       ? []
-      : [steady(words.steady(prediction.law), words.steadyHint, "steady")]),
-    ...(prediction?.adds_estimate ? [steady(words.fl, words.flHint, "fl")] : []),
+      : [steady(t("design.steady", { law: prediction.law }), t("design.steadyHint"), "steady")]),
+    ...(prediction?.adds_estimate ? [steady(t("design.fl"), t("design.flHint"), "fl")] : []),
     noise("u₁", "torque1_rms_nm"),
     noise("u₂", "torque2_rms_nm"),
     peak("u₁", "peak_torque1_nm", "torque1_nm"),
     peak("u₂", "peak_torque2_nm", "torque2_nm"),
     {
-      label: words.atLimit,
-      hint: words.peakHint,
+      label: t("design.atLimit"),
+      hint: t("design.peakHint"),
       read: ({ demand }) => orDash(demand?.limited_s, formatLapse),
     },
   ];
@@ -92,7 +90,9 @@ function Row({
       </th>
       <td>
         {line.read(prediction)}
-        {share !== null && share > 1 && <small class="block bad strong"> {words.beyond}</small>}
+        {share !== null && share > 1 && (
+          <small class="block bad strong"> {t("design.beyond")}</small>
+        )}
       </td>
       <td class="present">{now && line.read(now)}</td>
     </tr>
@@ -108,14 +108,14 @@ function Judgement({ prediction }: { prediction: Prediction }) {
     <section
       class={`line note small judgement ${TONES[verdict]}`}
       role="status"
-      aria-label={words.verdictIs(words.verdict[verdict])}
+      aria-label={t("design.verdictIs", { word: t(`design.verdict.${verdict}`) })}
     >
       <span class="rigid judgement-sign" aria-hidden="true">
-        {words.verdictSign[verdict]}
+        {t(`design.verdictSign.${verdict}`)}
       </span>
       <div>
-        <strong>{words.verdict[verdict]}</strong>
-        {reasons.length === 0 && <p>{words.fine}</p>}
+        <strong>{t(`design.verdict.${verdict}`)}</strong>
+        {reasons.length === 0 && <p>{t("design.fine")}</p>}
         {reasons.map((reason) => (
           <p key={reason.code + reason.message}>{reason.message}</p>
         ))}
@@ -128,21 +128,23 @@ function Judgement({ prediction }: { prediction: Prediction }) {
 export function Outcome() {
   const prediction = draftPrediction.value;
   const now = currentPrediction.value;
-  if (prediction === null) return <p class="hint">{words.asking}</p>;
+  if (prediction === null) return <p class="hint">{t("design.asking")}</p>;
   return (
     <div class={`stack ${isPredicting.value ? "is-stale" : ""}`}>
       <table class="metrics strong">
         <caption>
-          {words.expected}{" "}
-          <span class="unit">{words.at(formatNumber(prediction.stiffness_nm_per_rad, 3, 1))}</span>
+          {t("design.expected")}{" "}
+          <span class="unit">
+            {t("design.at", { stiffness: formatNumber(prediction.stiffness_nm_per_rad, 3, 1) })}
+          </span>
         </caption>
         <thead>
           <tr>
             <th scope="col" class="visually-hidden">
-              {words.quantity}
+              {t("design.quantity")}
             </th>
-            <th scope="col">{words.value}</th>
-            <th scope="col">{words.present}</th>
+            <th scope="col">{t("design.value")}</th>
+            <th scope="col">{t("design.present")}</th>
           </tr>
         </thead>
         <tbody>

@@ -1,7 +1,7 @@
 import { useEffect } from "preact/hooks";
 import { lawOf } from "../../core/state/laws";
 import { isLive, session } from "../../core/state/session";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { Problem } from "../../core/widgets/form";
 import { Panel } from "../../core/widgets/panel";
 import { Bandwidths } from "./bandwidths";
@@ -27,8 +27,6 @@ import { StabilityTable } from "./stabilitytable";
 import { SharedPoles, UndoButton } from "./summary";
 import { describePoles } from "./words";
 
-const words = text.design;
-
 function close(): void {
   isOpen.value = false;
 }
@@ -44,16 +42,16 @@ function Buttons() {
         disabled={!isReady || verdict === undefined || verdict === "refuse"}
         onClick={() => void apply()}
       >
-        {verdict === "warn" && isChanged.value ? words.applyAnyway : words.apply}
+        {verdict === "warn" && isChanged.value ? t("design.applyAnyway") : t("design.apply")}
       </button>
       <button
         type="button"
         class="button"
         disabled={!isChanged.value}
-        title={words.discardHint}
+        title={t("design.discardHint")}
         onClick={discard}
       >
-        {words.discard}
+        {t("design.discard")}
       </button>
       <UndoButton />
     </div>
@@ -64,10 +62,10 @@ function Roots() {
   const tried = draft.value;
   return (
     <p class="row small">
-      <strong>{words.roots}</strong>
+      <strong>{t("design.roots")}</strong>
       <span class="is-position">{tried && describePoles(tried.position)}</span>
       <span class="is-stiffness">{tried && describePoles(tried.stiffness)}</span>
-      <span class="unit">{words.unit}</span>
+      <span class="unit">{t("design.unit")}</span>
     </p>
   );
 }
@@ -84,13 +82,13 @@ function Design() {
   useEffect(() => stopComputing, []);
   return (
     <Panel
-      title={words.title}
+      title={t("design.title")}
       class="is-wide design"
       onClose={close}
       aside={
         <p class="row hint" aria-hidden="true">
-          <span class="is-position">✕ {words.legend.position}</span>
-          <span class="is-stiffness">◇ {words.legend.stiffness}</span>
+          <span class="is-position">✕ {t("design.legend.position")}</span>
+          <span class="is-stiffness">◇ {t("design.legend.stiffness")}</span>
         </p>
       }
     >
@@ -98,7 +96,7 @@ function Design() {
         <div class="stack">
           <Plane />
           <p class="hint" id="plane-hint">
-            {words.planeHint}
+            {t("design.planeHint")}
           </p>
           <Bandwidths />
         </div>

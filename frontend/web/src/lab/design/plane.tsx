@@ -1,5 +1,5 @@
 import { useRef } from "preact/hooks";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { type Draft, designInUse, draft, type Group, setDraftPoles } from "./draft";
 import {
   countPlaces,
@@ -62,16 +62,16 @@ function Ground() {
         </text>
       ))}
       <text x={WIDTH - 4} y={y0 - 6} text-anchor="end">
-        {text.design.real}
+        {t("design.real")}
       </text>
       <text x={x0 + 5} y="13">
-        {text.design.imaginary}
+        {t("design.imaginary")}
       </text>
       <text class="plane-side" x="8" y="15">
-        {text.design.stable}
+        {t("design.stable")}
       </text>
       <text class="plane-side is-unstable" x={WIDTH - 2} y={HEIGHT - 6} text-anchor="end">
-        {text.design.unstable}
+        {t("design.unstable")}
       </text>
     </svg>
   );
@@ -83,7 +83,7 @@ function ObserverMark({ bandwidth }: { bandwidth: number }) {
     <svg class="plane-observer" aria-hidden="true">
       <path d={`M${x} ${yOf(20)}V${yOf(-20)}`} />
       <text x={x} y={yOf(20) - 4} text-anchor="middle">
-        {text.design.observerLine}
+        {t("design.observerLine")}
       </text>
     </svg>
   );
@@ -99,7 +99,7 @@ function FastestMark() {
       <rect x="0" y="0" width={x} height={HEIGHT} />
       <path d={`M${x} 0V${HEIGHT}`} />
       <text x={x + 5} y={HEIGHT - 22}>
-        {text.stability.fastestLine(fastest.toFixed(0))}
+        {t("stability.fastestLine", { value: fastest.toFixed(0) })}
       </text>
     </svg>
   );
@@ -116,7 +116,7 @@ interface PoleMarkProps {
 function PoleMark({ group, poles, index, readPlace }: PoleMarkProps) {
   const start = useRef<Poles | null>(null);
   const pole = poles[index] as Pole;
-  const name = text.design[group];
+  const name = t(`design.${group}`);
   const grab = (event: PointerEvent) => {
     (event.currentTarget as Element).setPointerCapture(event.pointerId);
     start.current = poles;
@@ -141,11 +141,11 @@ function PoleMark({ group, poles, index, readPlace }: PoleMarkProps) {
       role="slider"
       tabindex={0}
       transform={`translate(${xOf(pole.re)} ${yOf(pole.im)})`}
-      aria-label={text.design.pole(name, index + 1, poles.length)}
+      aria-label={t("design.pole", { group: name, index: index + 1, count: poles.length })}
       aria-valuenow={pole.re}
       aria-valuemin={MIN_RE}
       aria-valuemax={MAX_RE}
-      aria-valuetext={text.design.poleValue(describePole(pole))}
+      aria-valuetext={t("design.poleValue", { value: describePole(pole) })}
       aria-describedby="plane-hint"
       onPointerDown={grab}
       onPointerMove={drag}
@@ -189,7 +189,7 @@ function Counts({ group, poles }: { group: Group; poles: Poles }) {
             y={yOf(pole.im) + side}
             text-anchor="middle"
           >
-            {text.design.many(count)}
+            {t("design.many", { count })}
           </text>
         ))}
     </svg>
@@ -216,7 +216,7 @@ export function Plane() {
       class="drawing sunken plane"
       viewBox={`0 0 ${WIDTH} ${HEIGHT}`}
       role="group"
-      aria-label={text.design.plane}
+      aria-label={t("design.plane")}
     >
       <Ground />
       <FastestMark />

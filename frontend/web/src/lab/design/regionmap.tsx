@@ -3,7 +3,7 @@ import { explain } from "../../core/state/actions";
 import { settings } from "../../core/state/arm";
 import { titleOf, usableLaws } from "../../core/state/laws";
 import { findStiffness } from "../../core/state/stiffness";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { formatInput, formatNumber } from "../../core/units";
 import { ErrorLine, SelectField } from "../../core/widgets/form";
 import { NumberField } from "../../core/widgets/numberinput";
@@ -21,7 +21,6 @@ import {
 } from "./region";
 import { draftResponse } from "./stability";
 
-const words = text.stability;
 const WIDTH = 340;
 const HEIGHT = 190;
 const LEFT = 34;
@@ -60,8 +59,11 @@ function Picture() {
   const part = restShare.value;
   const summary =
     region === null || part === null
-      ? words.regionEmpty
-      : words.regionSummary(percent(part), formatNumber(region.stiffness_nm_per_rad, 3, 1));
+      ? t("stability.regionEmpty")
+      : t("stability.regionSummary", {
+          stiffness: formatNumber(region.stiffness_nm_per_rad, 3, 1),
+          share: percent(part),
+        });
   return (
     <svg
       class="drawing region-map"
@@ -94,10 +96,19 @@ function Picture() {
         </text>
       ))}
       <text x={WIDTH - RIGHT} y={HEIGHT - 3} text-anchor="end">
-        {words.regionAxes}
+        {t("stability.regionAxes")}
       </text>
     </svg>
   );
+}
+
+function describeRegion(share: string, done: number, sensing: string): string {
+  const all = STARTS * STARTS;
+  const shares =
+    done === all
+      ? t("stability.regionFound", { share, all, sensing })
+      : t("stability.regionSoFar", { share, done, all, sensing });
+  return isOutdated.value ? shares + t("stability.regionOutdated") : shares;
 }
 
 /** Region of attraction: a map that fills while it is computed. */
@@ -119,8 +130,8 @@ export function RegionMap() {
       class={`stack region ${isOutdated.value ? "is-outdated" : ""}`}
       aria-labelledby={`${id}-title`}
     >
-      <h3 id={`${id}-title`} title={words.regionHint}>
-        {words.region}
+      <h3 id={`${id}-title`} title={t("stability.regionHint")}>
+        {t("stability.region")}
       </h3>
       <form
         class="row small region-choice"
@@ -130,7 +141,7 @@ export function RegionMap() {
         }}
       >
         <SelectField
-          label={words.law}
+          label={t("stability.law")}
           value={law ?? own}
           options={usableLaws.value.map(({ name }) => name)}
           name={titleOf}
@@ -138,16 +149,16 @@ export function RegionMap() {
           onChoose={setLaw}
         />
         <SelectField
-          label={words.slice}
+          label={t("stability.slice")}
           value={chosen}
           options={SLICES}
-          name={(slice) => words.slices[slice]}
+          name={(slice) => t(`stability.slices.${slice}`)}
           disabled={isComputing.value}
           onChoose={setChosen}
         />
         <NumberField
           label="σ"
-          labelRest={words.regionStiffness}
+          labelRest={t("stability.regionStiffness")}
           unit="N·m/rad"
           min={limits?.stiffness_min_nm_per_rad}
           max={limits?.stiffness_max_nm_per_rad}
@@ -157,11 +168,11 @@ export function RegionMap() {
         />
         {isComputing.value ? (
           <button type="button" class="button end" onClick={stopComputing}>
-            {words.stop}
+            {t("stability.stop")}
           </button>
         ) : (
           <button type="submit" class="button end">
-            {words.fill}
+            {t("stability.fill")}
           </button>
         )}
       </form>
@@ -170,20 +181,23 @@ export function RegionMap() {
       <p class="row small region-legend">
         {LOOKS.map((look) => (
           <span key={look} class={`is-${look}`}>
-            {words.looks[look]}
+            {t(`stability.looks.${look}`)}
           </span>
         ))}
       </p>
-      <p class="hint">{words.regionCaption(words.slices[region?.chosen ?? chosen], STARTS)}</p>
+      <p class="hint">
+        {t("stability.regionCaption", {
+          slice: t(`stability.slices.${region?.chosen ?? chosen}`),
+          starts: STARTS,
+        })}
+      </p>
       <p class="hint" role={isComputing.value ? undefined : "status"}>
         {region === null || part === null
-          ? words.regionEmpty
-          : words.regionFound(
+          ? t("stability.regionEmpty")
+          : describeRegion(
               percent(part),
               outcomes.value.length,
-              STARTS * STARTS,
-              words.sensing[region.encoders],
-              isOutdated.value,
+              t(`stability.sensing.${region.encoders}`),
             )}
       </p>
     </section>

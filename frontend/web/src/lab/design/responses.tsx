@@ -1,16 +1,15 @@
 import type { DesignResponse } from "../../core/api/design";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { formatNumber, toDegrees } from "../../core/units";
 import { type Axis, type Curve, Curves } from "./curves";
 import { isChanged } from "./draft";
 import { currentResponse, draftResponse } from "./stability";
 import { caveatOf } from "./words";
 
-const words = text.stability;
-const TIME: Axis = { limits: [-0.1, 0.9], label: words.time };
-const ERROR: Axis = { label: words.error };
-const FREQUENCY: Axis = { limits: [0.1, 100], label: words.frequency, isLog: true };
-const MAGNITUDE: Axis = { limits: [0.01, 30], label: words.magnitude, isLog: true };
+const TIME: Axis = { limits: [-0.1, 0.9], label: t("stability.time") };
+const ERROR: Axis = { label: t("stability.error") };
+const FREQUENCY: Axis = { limits: [0.1, 100], label: t("stability.frequency"), isLog: true };
+const MAGNITUDE: Axis = { limits: [0.01, 30], label: t("stability.magnitude"), isLog: true };
 
 type Points = Curve["points"];
 
@@ -43,47 +42,63 @@ function curvesOf(read: (response: DesignResponse) => Points): Curve[] {
  */
 export function Responses() {
   const response = draftResponse.value;
-  if (response === null) return <p class="hint">{text.design.asking}</p>;
+  if (response === null) return <p class="hint">{t("design.asking")}</p>;
   const errors = curvesOf(errorOf);
   const magnitudes = curvesOf(magnitudeOf);
   const caveat = caveatOf(response);
   const doubt = caveat?.short ?? null;
-  const now = currentResponse.value;
-  const addCaveat = (summary: string) => (caveat ? words.caveat(summary, caveat.short) : summary);
+  const earlier = currentResponse.value && caveatOf(currentResponse.value);
+  const addCaveat = (summary: string) =>
+    caveat ? t("stability.caveat", { summary, short: caveat.short }) : summary;
   const peak = formatNumber(toDegrees(response.load.peak_error_rad), 3, 2);
   return (
     <div class="halves wide">
       <div>
         <Curves
-          title={words.loadTitle}
-          summary={addCaveat(words.loadSummary(peak, response.load.fault))}
+          title={t("stability.loadTitle")}
+          summary={addCaveat(
+            response.load.fault
+              ? t("stability.loadSummaryFault", { peak, fault: response.load.fault })
+              : t("stability.loadSummary", { peak }),
+          )}
           x={TIME}
           y={ERROR}
           curves={errors}
           caveat={doubt}
         />
-        {response.load.fault && <p class="hint bad">{words.loadFault(response.load.fault)}</p>}
+        {response.load.fault && (
+          <p class="hint bad">{t("stability.loadFault", { fault: response.load.fault })}</p>
+        )}
       </div>
       <Curves
-        title={words.bodeTitle}
+        title={t("stability.bodeTitle")}
         summary={addCaveat(
-          words.bodeSummary(
-            formatNumber(Math.max(0, ...magnitudeOf(response).map(([, value]) => value)), 3, 2),
-            response.disturbance === null,
-          ),
+          response.disturbance === null
+            ? t("stability.noBode")
+            : t("stability.bodeSummary", {
+                most: formatNumber(
+                  Math.max(0, ...magnitudeOf(response).map(([, value]) => value)),
+                  3,
+                  2,
+                ),
+              }),
         )}
         x={FREQUENCY}
         y={MAGNITUDE}
         curves={magnitudes}
-        note={response.disturbance === null ? words.bodeUnstable : null}
+        note={response.disturbance === null ? t("stability.bodeUnstable") : null}
         caveat={response.disturbance === null ? null : doubt}
       />
       {caveat && <p class="hint bad wide">{caveat.summary}</p>}
       <p class="row small wide responses-legend" aria-hidden="true">
-        <span class="is-tried">{isChanged.value ? words.tried : words.inUse}</span>
+        <span class="is-tried">
+          {isChanged.value ? t("stability.tried") : t("stability.inUse")}
+        </span>
         {isChanged.value && (
           <span class="is-present">
-            {words.lineStyles(words.inUse, (now && caveatOf(now)?.short) ?? null)}
+            {earlier
+              ? t("stability.lineStyles", { name: t("stability.inUse"), short: earlier.short })
+              : t("stability.inUse")}
           </span>
         )}
       </p>

@@ -1,51 +1,54 @@
 import type { Margins, Stability } from "../../core/api/design";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { formatNumber, toDegrees } from "../../core/units";
 import { isStale, margins, stability } from "./stability";
 import { errorsOf, gainRangeOf, rangeOf } from "./words";
 
-const words = text.stability;
 const ratio = (value: number) => formatNumber(value, 3, 2);
 const FAINT: readonly string[] = ["D", "D1", "D2"];
 
 const gainOf = (gain: number | null) =>
-  gain === null ? words.noGain : words.gainValue(formatNumber(toDegrees(gain), 3, 4));
+  gain === null
+    ? t("stability.noGain")
+    : t("stability.gainValue", { degrees: formatNumber(toDegrees(gain), 3, 4) });
 
 function Lines({ result }: { result: Stability }) {
   const { floor_rad_s_per_nm: floor } = result;
   return (
     <dl class="facts small">
-      <div title={words.slowestHint}>
-        <dt>{words.slowest}</dt>
+      <div title={t("stability.slowestHint")}>
+        <dt>{t("stability.slowest")}</dt>
         <dd class={result.slowest_rad_per_s < 0 ? "" : "bad"}>
-          {words.rate(formatNumber(result.slowest_rad_per_s, 3, 1))}
+          {t("stability.rate", { value: formatNumber(result.slowest_rad_per_s, 3, 1) })}
         </dd>
       </div>
-      <div title={words.dampingHint}>
-        <dt>{words.damping}</dt>
+      <div title={t("stability.dampingHint")}>
+        <dt>{t("stability.damping")}</dt>
         <dd>{formatNumber(result.least_damping, 2, 2)}</dd>
       </div>
-      <div title={words.gainHint}>
-        <dt>{words.gain}</dt>
+      <div title={t("stability.gainHint")}>
+        <dt>{t("stability.gain")}</dt>
         <dd>{gainOf(result.ramp_gain_rad_s_per_nm)}</dd>
       </div>
-      <div title={words.l1Hint}>
-        <dt>{words.l1}</dt>
+      <div title={t("stability.l1Hint")}>
+        <dt>{t("stability.l1")}</dt>
         <dd>{gainOf(result.l1_gain_rad_s_per_nm)}</dd>
       </div>
       {floor !== null && (
-        <div title={words.floorHint}>
-          <dt>{words.floor}</dt>
+        <div title={t("stability.floorHint")}>
+          <dt>{t("stability.floor")}</dt>
           <dd>{gainOf(floor)}</dd>
         </div>
       )}
       {result.is_observed && (
-        <div title={words.fastestHint}>
-          <dt>{words.fastest(words.sensing[result.encoders])}</dt>
+        <div title={t("stability.fastestHint")}>
+          <dt>{t("stability.fastest", { sensing: t(`stability.sensing.${result.encoders}`) })}</dt>
           <dd>
             {result.fastest_observer_rad_per_s === null
-              ? words.anyObserver
-              : words.rate(formatNumber(result.fastest_observer_rad_per_s, 3, 0))}
+              ? t("stability.anyObserver")
+              : t("stability.rate", {
+                  value: formatNumber(result.fastest_observer_rad_per_s, 3, 0),
+                })}
           </dd>
         </div>
       )}
@@ -54,58 +57,60 @@ function Lines({ result }: { result: Stability }) {
 }
 
 function MarginLines({ result }: { result: Margins }) {
-  const sensing = words.sensing[result.encoders];
-  if (!result.is_stable) return <p class="hint">{words.noMargins(sensing)}</p>;
+  const sensing = t(`stability.sensing.${result.encoders}`);
+  if (!result.is_stable) return <p class="hint">{t("stability.noMargins", { sensing })}</p>;
   const { delay_s: delay, joint_error: norm, joint_errors: errors } = result;
   const lines: [string, string, string][] = [
-    [words.modulus, words.modulusHint, ratio(result.modulus)],
+    [t("stability.modulus"), t("stability.modulusHint"), ratio(result.modulus)],
     [
-      words.delay,
-      words.delayHint,
-      delay === null ? words.anyDelay : words.milliseconds(formatNumber(1000 * delay, 2, 1)),
+      t("stability.delay"),
+      t("stability.delayHint"),
+      delay === null
+        ? t("stability.anyDelay")
+        : t("stability.milliseconds", { value: formatNumber(1000 * delay, 2, 1) }),
     ],
-    [words.gain1, words.gainMarginHint, gainRangeOf(result.torque1_gain)],
-    [words.gain2, words.gainMarginHint, gainRangeOf(result.torque2_gain)],
+    [t("stability.gain1"), t("stability.gainMarginHint"), gainRangeOf(result.torque1_gain)],
+    [t("stability.gain2"), t("stability.gainMarginHint"), gainRangeOf(result.torque2_gain)],
     [
-      words.joint,
-      words.jointHint,
+      t("stability.joint"),
+      t("stability.jointHint"),
       norm === null || errors === null
-        ? words.noJoint
-        : words.jointValue(ratio(norm), errorsOf(errors)),
+        ? t("stability.noJoint")
+        : t("stability.jointValue", { norm: ratio(norm), errors: errorsOf(errors) }),
     ],
   ];
   return (
-    <dl class="facts small" aria-label={words.margins(sensing)}>
+    <dl class="facts small" aria-label={t("stability.margins", { sensing })}>
       {lines.map(([name, hint, value]) => (
         <div key={name} title={hint}>
           <dt>{name}</dt>
           <dd>{value}</dd>
         </div>
       ))}
-      {result.is_switching && <p class="hint">{words.switching}</p>}
+      {result.is_switching && <p class="hint">{t("stability.switching")}</p>}
     </dl>
   );
 }
 
 function Ranges({ result }: { result: Stability }) {
-  if (result.ranges.length === 0) return <p class="hint">{words.unstableAsItIs}</p>;
+  if (result.ranges.length === 0) return <p class="hint">{t("stability.unstableAsItIs")}</p>;
   const shown = result.ranges.filter(
     ({ symbol, low, high }) => !FAINT.includes(symbol) || low !== null || high !== null,
   );
   return (
     <table class="metrics strong">
-      <caption title={words.rangesHint}>{words.ranges}</caption>
+      <caption title={t("stability.rangesHint")}>{t("stability.ranges")}</caption>
       <thead>
         <tr>
-          <th scope="col">{words.parameter}</th>
-          <th scope="col">{words.range}</th>
-          <th scope="col">{words.now}</th>
+          <th scope="col">{t("stability.parameter")}</th>
+          <th scope="col">{t("stability.range")}</th>
+          <th scope="col">{t("stability.now")}</th>
         </tr>
       </thead>
       <tbody>
         {shown.map((range) => (
           <tr key={range.symbol}>
-            <th scope="row">{words.times(range.symbol)}</th>
+            <th scope="row">{t("stability.times", { symbol: range.symbol })}</th>
             <td>{rangeOf(range)}</td>
             <td class="present">{ratio(range.present)}</td>
           </tr>
@@ -119,10 +124,10 @@ function Ranges({ result }: { result: Stability }) {
 export function StabilityTable() {
   const result = stability.value;
   return (
-    <section class={`stack ${isStale.value ? "is-stale" : ""}`} aria-label={words.title}>
-      <h3>{words.title}</h3>
+    <section class={`stack ${isStale.value ? "is-stale" : ""}`} aria-label={t("stability.title")}>
+      <h3>{t("stability.title")}</h3>
       {result === null ? (
-        <p class="hint">{text.design.asking}</p>
+        <p class="hint">{t("design.asking")}</p>
       ) : (
         <>
           <Lines result={result} />

@@ -3,14 +3,12 @@ import { isArm } from "../../core/state/arm";
 import { comparisonLanes } from "../../core/state/lanes";
 import { lawOf } from "../../core/state/laws";
 import { isLive, session } from "../../core/state/session";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { Problem } from "../../core/widgets/form";
 import { PanelButton } from "../../core/widgets/panel";
 import { designInUse, discard, isOpen } from "./draft";
 import { steps, undo } from "./history";
 import { describePoles } from "./words";
-
-const words = text.design;
 
 export function UndoButton() {
   const count = steps.value.length;
@@ -19,8 +17,8 @@ export function UndoButton() {
       type="button"
       class="button"
       disabled={count === 0 || !isLive.value}
-      aria-label={count === 0 ? words.undo : words.undoSteps(count)}
-      title={words.undoHint}
+      aria-label={count === 0 ? t("design.undo") : t("design.undoSteps", { count })}
+      title={t("design.undoHint")}
       onClick={() => {
         discard();
         void undo();
@@ -29,7 +27,7 @@ export function UndoButton() {
       <svg viewBox="0 0 16 16" aria-hidden="true">
         <path d="M6 2.2v3h4.2a4.4 4.4 0 0 1 0 8.8H4v-2h6.2a2.4 2.4 0 0 0 0-4.8H6v3L1.4 6.2z" />
       </svg>
-      {words.undo}
+      {t("design.undo")}
       {count > 0 && <span class="tag tiny"> {count}</span>}
     </button>
   );
@@ -55,7 +53,9 @@ const sharedWith = (state: SessionState): string[] =>
 export function SharedPoles() {
   const state = session.value;
   const shared = state === null ? [] : sharedWith(state);
-  return shared.length > 0 ? <p class="hint">{words.shared(shared)}</p> : null;
+  return shared.length > 0 ? (
+    <p class="hint">{t("design.shared", { names: shared.join(", ") })}</p>
+  ) : null;
 }
 
 /** The poles in use, and a button to change them, which predicts the behaviour of one joint. */
@@ -67,9 +67,9 @@ export function DesignSummary() {
       <dl class="facts">
         {(["position", "stiffness"] as const).map((group) => (
           <div key={group}>
-            <dt>{words.summary(words[group])}</dt>
+            <dt>{t("design.summary", { group: t(`design.${group}`) })}</dt>
             <dd>
-              {describePoles(now[group])} <span class="unit">{words.unit}</span>
+              {describePoles(now[group])} <span class="unit">{t("design.unit")}</span>
             </dd>
           </div>
         ))}
@@ -77,11 +77,11 @@ export function DesignSummary() {
       <SharedPoles />
       <div class="row design-open">
         {!isArm.value && (
-          <PanelButton isOpen={isOpen} hint={words.openHint}>
+          <PanelButton isOpen={isOpen} hint={t("design.openHint")}>
             <svg viewBox="0 0 16 16" aria-hidden="true">
               <path d="M11 0h1.6v16H11zM0 7.2h16v1.6H0zM3 1.8l1.4 1.4L5.8 1.8l1 1-1.4 1.4 1.4 1.4-1 1-1.4-1.4L3 6.6l-1-1 1.4-1.4L2 2.8zM3 9.8l1.4 1.4 1.4-1.4 1 1-1.4 1.4 1.4 1.4-1 1-1.4-1.4L3 14.6l-1-1 1.4-1.4L2 10.8z" />
             </svg>
-            {words.open}
+            {t("design.open")}
           </PanelButton>
         )}
         <UndoButton />

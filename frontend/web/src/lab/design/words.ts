@@ -1,6 +1,6 @@
 /** Poles and numbers of a design as text. */
 import type { DesignResponse, Margins, Prediction, Stability } from "../../core/api/design";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { formatInput, formatNumber, toDegrees } from "../../core/units";
 import { countPlaces, type Pole, type Poles } from "./poles";
 
@@ -10,7 +10,9 @@ const plain = (value: number) => formatInput(Math.abs(value), 4);
 const signed = (value: number) => (value < 0 ? MINUS : "") + plain(value);
 
 export function describePole({ re, im }: Pole): string {
-  return im === 0 ? signed(re) : text.design.complex(signed(re), plain(im), im > 0);
+  return im === 0
+    ? signed(re)
+    : t("design.complex", { re: signed(re), sign: im > 0 ? "+" : "−", im: plain(im) });
 }
 
 /** "−60 ×4" or "−40 ± 30j, −60 ×2". */
@@ -18,7 +20,7 @@ export function describePoles(poles: Poles): string {
   return countPlaces(poles.filter(({ im }) => im >= 0))
     .map(({ pole, count }) => {
       const place = pole.im === 0 ? signed(pole.re) : `${signed(pole.re)} ± ${plain(pole.im)}j`;
-      return count > 1 ? `${place} ${text.design.many(count)}` : place;
+      return count > 1 ? `${place} ${t("design.many", { count })}` : place;
     })
     .join(", ");
 }
@@ -27,7 +29,7 @@ export const degreesOf = (rad: number) => `${formatNumber(Math.abs(toDegrees(rad
 export const torqueOf = (torque: number) => `${formatNumber(torque, 3, 4)} N·m`;
 
 /** Never marked as good if a limit is exceeded, however shortly. */
-export const verdictOf = ({ verdict, reasons }: Prediction): keyof typeof text.design.verdict =>
+export const verdictOf = ({ verdict, reasons }: Prediction): Prediction["verdict"] | "note" =>
   verdict === "ok" && reasons.length > 0 ? "note" : verdict;
 
 interface Caveat {
@@ -42,23 +44,29 @@ export function caveatOf(
   response: Pick<DesignResponse, "largest_pole" | "encoders">,
 ): Caveat | null {
   if (response.largest_pole < 1) return null;
-  const { short, summary } = text.stability.unstableOn[response.encoders];
-  return { short, summary: summary(response.largest_pole.toFixed(4)) };
+  const { encoders } = response;
+  return {
+    short: t(`stability.unstableOn.${encoders}.short`),
+    summary: t(`stability.unstableOn.${encoders}.summary`, {
+      pole: response.largest_pole.toFixed(4),
+    }),
+  };
 }
 
 const ratio = (value: number) => formatNumber(value, 3, 2);
 
 /** Ratios of the true to the nominal value of a parameter for which the loop is stable. */
 export function rangeOf({ low, high }: Pick<Stability["ranges"][number], "low" | "high">): string {
-  if (high === null) return low === null ? text.stability.all : text.stability.from(ratio(low));
+  if (high === null)
+    return low === null ? t("stability.all") : t("stability.from", { low: ratio(low) });
   return low === null
-    ? text.stability.upTo(ratio(high))
-    : text.stability.between(ratio(low), ratio(high));
+    ? t("stability.upTo", { high: ratio(high) })
+    : t("stability.between", { low: ratio(low), high: ratio(high) });
 }
 
 /** Factors on a torque for which the loop stays stable. */
 export function gainRangeOf(range: Margins["torque1_gain"]): string {
-  if (range === null) return text.stability.all;
+  if (range === null) return t("stability.all");
   return rangeOf({ low: range.low ?? 0, high: range.high });
 }
 

@@ -2,12 +2,9 @@ import type { ComponentChildren } from "preact";
 import { useId } from "preact/hooks";
 import { areKeysOn, setKeysOn } from "../../core/state/preferences";
 import { bench } from "../../core/state/session";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { Panel, PanelButton } from "../../core/widgets/panel";
 import { isHelpOpen } from "./keys";
-
-const { keys } = text;
-const { names } = keys;
 
 interface RowProps {
   press: readonly string[];
@@ -35,22 +32,24 @@ function close(): void {
 function Sheet() {
   const id = useId();
   return (
-    <Panel title={keys.title} class="help" onClose={close}>
+    <Panel title={t("keys.title")} class="help" onClose={close}>
       <dl>
-        <Row press={[names.shift, names.escape]}>
-          <strong>{keys.does.stop}</strong>
+        <Row press={[t("keys.names.shift"), t("keys.names.escape")]}>
+          <strong>{t("keys.does.stop")}</strong>
         </Row>
-        <Row press={[names.space]}>{bench.value === null ? keys.does.run : keys.benchRun}</Row>
-        <Row press={["R"]}>{keys.does.record}</Row>
-        <Row press={["L"]}>{keys.does.load}</Row>
-        <Row press={["C"]}>{keys.does.compare}</Row>
-        {bench.value?.dead_man && <Row press={["D"]}>{keys.does.hold}</Row>}
-        <Row press={["Z"]}>{keys.does.zoom}</Row>
-        <Row press={["N"]}>{keys.does.names}</Row>
-        <Row press={["O"]}>{keys.does.runs}</Row>
-        <Row press={["P"]}>{keys.does.calls}</Row>
-        <Row press={["?"]}>{keys.does.help}</Row>
-        <Row press={[names.escape]}>{keys.does.close}</Row>
+        <Row press={[t("keys.names.space")]}>
+          {bench.value === null ? t("keys.does.run") : t("keys.benchRun")}
+        </Row>
+        <Row press={["R"]}>{t("keys.does.record")}</Row>
+        <Row press={["L"]}>{t("keys.does.load")}</Row>
+        <Row press={["C"]}>{t("keys.does.compare")}</Row>
+        {bench.value?.dead_man && <Row press={["D"]}>{t("keys.does.hold")}</Row>}
+        <Row press={["Z"]}>{t("keys.does.zoom")}</Row>
+        <Row press={["N"]}>{t("keys.does.names")}</Row>
+        <Row press={["O"]}>{t("keys.does.runs")}</Row>
+        <Row press={["P"]}>{t("keys.does.calls")}</Row>
+        <Row press={["?"]}>{t("keys.does.help")}</Row>
+        <Row press={[t("keys.names.escape")]}>{t("keys.does.close")}</Row>
       </dl>
       <label class="row divided strong help-switch">
         <input
@@ -59,10 +58,10 @@ function Sheet() {
           aria-describedby={`${id}-hint`}
           onChange={(event) => setKeysOn(event.currentTarget.checked)}
         />
-        {keys.switch}
+        {t("keys.switch")}
       </label>
       <p class="hint" id={`${id}-hint`}>
-        {keys.switchHint}
+        {t("keys.switchHint")}
       </p>
     </Panel>
   );
@@ -74,7 +73,7 @@ export function HelpSheet() {
 
 export function HelpButton() {
   return (
-    <PanelButton isOpen={isHelpOpen} hint={keys.open} name={keys.open} shortcut="?">
+    <PanelButton isOpen={isHelpOpen} hint={t("keys.open")} name={t("keys.open")} shortcut="?">
       <strong aria-hidden="true">?</strong>
     </PanelButton>
   );

@@ -9,12 +9,10 @@ import {
 } from "../../core/state/control";
 import { defaultName, MAX_NAME_LENGTH, personName } from "../../core/state/preferences";
 import { isLive } from "../../core/state/session";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { Banner } from "../../core/widgets/banner";
 import { Problem } from "../../core/widgets/form";
 import { QueueStatus } from "./queuestatus";
-
-const words = text.control;
 
 /** Dialog for a missing name, and to confirm taking control from its holder. */
 function Question({ other }: { other: string | null }) {
@@ -26,14 +24,16 @@ function Question({ other }: { other: string | null }) {
     void confirmControl(name);
   };
   return (
-    <form class="row banner is-news is-calm" aria-label={words.heading} onSubmit={submit}>
+    <form class="row banner is-news is-calm" aria-label={t("control.heading")} onSubmit={submit}>
       <p>
-        <strong>{other === null ? words.askTitle : words.askOverTitle(other)}</strong>{" "}
-        {other !== null && words.askOverText}
+        <strong>
+          {other === null ? t("control.askTitle") : t("control.askOverTitle", { name: other })}
+        </strong>{" "}
+        {other !== null && t("control.askOverText")}
       </p>
       {!isNameKnown && (
         <>
-          <label for={id}>{words.name}</label>
+          <label for={id}>{t("control.name")}</label>
           <input
             id={id}
             type="text"
@@ -46,7 +46,7 @@ function Question({ other }: { other: string | null }) {
         </>
       )}
       <button type="submit" class="button is-primary" disabled={!isLive.value}>
-        {words.take}
+        {t("control.take")}
       </button>
       <button
         type="button"
@@ -55,7 +55,7 @@ function Question({ other }: { other: string | null }) {
           isControlDialogOpen.value = false;
         }}
       >
-        {words.cancel}
+        {t("control.cancel")}
       </button>
     </form>
   );
@@ -63,9 +63,14 @@ function Question({ other }: { other: string | null }) {
 
 function Held({ other }: { other: string }) {
   return (
-    <Banner look="is-news is-calm" sign="▪" title={words.heldTitle(other)} words={words.heldText}>
+    <Banner
+      look="is-news is-calm"
+      sign="▪"
+      title={t("control.heldTitle", { name: other })}
+      words={t("control.heldText")}
+    >
       <button type="button" class="button" disabled={!isLive.value} onClick={requestControl}>
-        {words.takeOver}
+        {t("control.takeOver")}
       </button>
     </Banner>
   );

@@ -9,9 +9,7 @@ import {
   requestControl,
 } from "../../core/state/control";
 import { isLive } from "../../core/state/session";
-import { text } from "../../core/text/en";
-
-const words = text.control;
+import { t } from "../../core/text/t";
 
 function Button() {
   const other = otherHolder.value;
@@ -20,14 +18,14 @@ function Button() {
   const waits = inTurn !== null && inTurn.place !== null;
   if (isObserver.value) return null;
   const [label, hint] = isMine
-    ? [words.giveBack, inTurn === null ? words.giveBackHint : words.giveOnHint]
+    ? [t("control.giveBack"), inTurn === null ? t("control.giveBackHint") : t("control.giveOnHint")]
     : waits
-      ? [words.leaveQueue, words.leaveQueueHint]
+      ? [t("control.leaveQueue"), t("control.leaveQueueHint")]
       : inTurn !== null && !isInstructor.value
-        ? [words.ask, words.askHint]
+        ? [t("control.ask"), t("control.askHint")]
         : other === null
-          ? [words.take, words.takeHint]
-          : [words.takeOver, words.takeOverHint(other)];
+          ? [t("control.take"), t("control.takeHint")]
+          : [t("control.takeOver"), t("control.takeOverHint", { name: other })];
   return (
     <button
       type="button"
@@ -46,23 +44,31 @@ export function ControlCell() {
   const now = control.value;
   if (now === null) return null;
   const inTurn = queue.value;
-  const free = inTurn === null ? words.everyone : inTurn.locked ? words.locked : words.free;
-  const holder = now.mine ? words.you : (now.holder ?? free);
-  const who = isLive.value ? holder : text.status.notKnown;
+  const free =
+    inTurn === null
+      ? t("control.everyone")
+      : inTurn.locked
+        ? t("control.locked")
+        : t("control.free");
+  const holder = now.mine ? t("control.you") : (now.holder ?? free);
+  const who = isLive.value ? holder : t("status.notKnown");
   const sign = now.holder === null || !isLive.value ? "○" : now.mine ? "●" : "▪";
   return (
     <div
       class={`rigid small nowrap status-cell is-control ${now.mine ? "is-mine" : ""} ${mayCommand.value ? "" : "is-other"}`}
-      title={words.hint}
+      title={t("control.hint")}
     >
-      <dt>{words.heading}</dt>
+      <dt>{t("control.heading")}</dt>
       <dd>
         <span role="status">
           <span aria-hidden="true">{sign}</span> <span class="clip control-name">{who}</span>
         </span>{" "}
         {isLive.value && (
           <small>
-            · {inTurn?.place ? words.place(inTurn.place) : words.watching(now.watching)}
+            ·{" "}
+            {inTurn?.place
+              ? t("control.place", { place: inTurn.place })
+              : t("control.watching", { count: now.watching })}
           </small>
         )}
       </dd>

@@ -1,8 +1,6 @@
 import { isPrivate } from "../../core/api/request";
 import { openOwnSession } from "../../core/state/control";
-import { text } from "../../core/text/en";
-
-const words = text.control;
+import { t } from "../../core/text/t";
 
 /** Leaves the shared session for one of the user alone. */
 export function PrivateSessionButton() {
@@ -11,10 +9,10 @@ export function PrivateSessionButton() {
     <button
       type="button"
       class="button"
-      title={words.privateHint}
+      title={t("control.privateHint")}
       onClick={() => void openOwnSession()}
     >
-      {words.private}
+      {t("control.private")}
     </button>
   );
 }

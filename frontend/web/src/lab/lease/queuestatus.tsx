@@ -9,11 +9,10 @@ import {
   requestControl,
 } from "../../core/state/control";
 import { isLive } from "../../core/state/session";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { Banner } from "../../core/widgets/banner";
 import { PrivateSessionButton } from "./privatesession";
 
-const words = text.classroom;
 type Queue = NonNullable<SessionState["queue"]>;
 
 /** The holder of control in a class's session, and the user's own position; otherwise empty. */
@@ -23,19 +22,31 @@ function describeTurn(queue: Queue): { title: string; more: string } | null {
   if (now?.mine) {
     return next === undefined
       ? null
-      : { title: words.waits(next.name, queue.waiting.length), more: words.goesOn(queue.idle_s) };
+      : {
+          title:
+            queue.waiting.length === 1
+              ? t("classroom.waits", { name: next.name })
+              : t("classroom.waitMore", { name: next.name, more: queue.waiting.length - 1 }),
+          more: t("classroom.goesOn", { seconds: Math.round(queue.idle_s) }),
+        };
   }
   const title = queue.locked
-    ? words.lockedTitle
+    ? t("classroom.lockedTitle")
     : now?.holder
-      ? text.control.heldTitle(now.holder)
-      : words.freeTitle;
+      ? t("control.heldTitle", { name: now.holder })
+      : t("classroom.freeTitle");
   if (queue.place !== null) {
-    return { title, more: words.placeText(queue.place, queue.waiting.length) };
+    return {
+      title,
+      more:
+        queue.place === 1
+          ? t("classroom.next")
+          : t("classroom.placeText", { place: queue.place, total: queue.waiting.length }),
+    };
   }
   if (isInstructor.value && !now?.holder && !queue.locked) return null;
-  if (isInstructor.value && !now?.holder) return { title, more: words.lockedByYou };
-  return { title, more: isObserver.value ? words.observerText : text.control.heldText };
+  if (isInstructor.value && !now?.holder) return { title, more: t("classroom.lockedByYou") };
+  return { title, more: isObserver.value ? t("classroom.observerText") : t("control.heldText") };
 }
 
 function Act({ queue }: { queue: Queue }) {
@@ -49,7 +60,7 @@ function Act({ queue }: { queue: Queue }) {
         disabled={!isLive.value}
         onClick={() => void handOver(next.id)}
       >
-        {words.handOver(next.name)}
+        {t("classroom.handOver", { name: next.name })}
       </button>
     );
   }
@@ -63,7 +74,7 @@ function Act({ queue }: { queue: Queue }) {
         disabled={!isLive.value}
         onClick={() => (waits ? void releaseControl() : requestControl())}
       >
-        {waits ? text.control.leaveQueue : text.control.ask}
+        {waits ? t("control.leaveQueue") : t("control.ask")}
       </button>
       <PrivateSessionButton />
     </>

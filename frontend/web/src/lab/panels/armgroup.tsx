@@ -9,17 +9,17 @@ import { type JointChoice, jointChoice } from "../../core/state/arm";
 import { armOf } from "../../core/state/joints";
 import { tipMassKg } from "../../core/state/plant";
 import { samples } from "../../core/state/session";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { formatNumber } from "../../core/units";
 import { Choice, Problem } from "../../core/widgets/form";
 import { Switch } from "../../core/widgets/switch";
 import { Field } from "./field";
 import { Group } from "./group";
 
-const words = text.arm;
-const JOINTS = (Object.keys(words.joints) as JointChoice[])
-  .sort((first, second) => Number(first !== "both") - Number(second !== "both"))
-  .map((value) => ({ value, label: words.joints[value] }));
+const JOINTS = (["both", "1", "2"] as const satisfies JointChoice[]).map((value) => ({
+  value,
+  label: t(`arm.joints.${value}`),
+}));
 
 /** The estimates of the mass at the tip, of both arms. */
 function Estimate({ state }: { state: SessionState }) {
@@ -27,11 +27,11 @@ function Estimate({ state }: { state: SessionState }) {
   if (!masses) return null;
   return (
     <p class="hint tabular arm-estimate">
-      {words.estimate}{" "}
+      {t("arm.estimate")}{" "}
       {masses.map((mass, index) => (
         <span key={index === 0 ? "own" : "other"}>
           <strong class="number">{formatNumber(mass, 3, 3)}</strong>{" "}
-          {index === 0 ? words.kilograms : words.ofComparison}{" "}
+          {index === 0 ? t("arm.kilograms") : t("arm.ofComparison")}{" "}
         </span>
       ))}
     </p>
@@ -73,8 +73,8 @@ function Wall({ state }: { state: SessionState }) {
   return (
     <>
       <Switch
-        label={words.wall}
-        hint={words.wallHint}
+        label={t("arm.wall")}
+        hint={t("arm.wallHint")}
         isOn={wall !== undefined}
         onToggle={toggle}
       />
@@ -97,7 +97,7 @@ function buildEllipse({ length1_m, length2_m }: ArmSetup["links"]): NonNullable<
 
 const REFERENCES = (["joints", "tip"] as const).map((value) => ({
   value,
-  label: words.references[value],
+  label: t(`arm.references.${value}`),
 }));
 
 /** What follows a reference of its own: each joint, or the tip. */
@@ -108,9 +108,9 @@ function ReferenceChoice({ arm }: { arm: ArmSetup }) {
   return (
     <>
       <div class="spread">
-        <span>{words.reference}</span>
+        <span>{t("arm.reference")}</span>
         <Choice
-          label={words.reference}
+          label={t("arm.reference")}
           options={REFERENCES}
           value={arm.tip === null ? "joints" : "tip"}
           describedBy={id}
@@ -118,7 +118,7 @@ function ReferenceChoice({ arm }: { arm: ArmSetup }) {
         />
       </div>
       <p class="hint" id={id}>
-        {words.referenceHint}
+        {t("arm.referenceHint")}
       </p>
       <Problem control="arm.reference" />
     </>
@@ -134,10 +134,10 @@ export function ArmGroup({ state, isBasic }: { state: SessionState; isBasic: boo
   const choice = jointChoice.value;
   return (
     <Group
-      title={words.title}
+      title={t("arm.title")}
       aside={
         <Choice
-          label={words.joint}
+          label={t("arm.joint")}
           options={JOINTS}
           value={choice}
           onChoose={(next) => {
@@ -147,18 +147,20 @@ export function ArmGroup({ state, isBasic }: { state: SessionState; isBasic: boo
       }
     >
       {!isBasic && (
-        <p class="hint is-about">{choice === "both" ? words.both : words.one(choice)}</p>
+        <p class="hint is-about">
+          {choice === "both" ? t("arm.both") : t("arm.one", { joint: choice })}
+        </p>
       )}
       <div class="row joined">
         <Switch
-          label={words.feedforward}
-          hint={words.feedforwardHint}
+          label={t("arm.feedforward")}
+          hint={t("arm.feedforwardHint")}
           isOn={arm.feedforward}
           onToggle={() => send({ feedforward: !arm.feedforward })}
         />
         <Switch
-          label={words.adaptation}
-          hint={words.adaptationHint}
+          label={t("arm.adaptation")}
+          hint={t("arm.adaptationHint")}
           isOn={arm.adaptation !== null}
           onToggle={() =>
             send({ adaptation: arm.adaptation === null ? (last.current ?? {}) : null } as ArmPatch)
@@ -171,7 +173,7 @@ export function ArmGroup({ state, isBasic }: { state: SessionState; isBasic: boo
       {!isBasic && <ReferenceChoice arm={arm} />}
       <Field
         name="arm.mass"
-        label={words.mass}
+        label={t("arm.mass")}
         unit="kg"
         min={0.001}
         max={20}

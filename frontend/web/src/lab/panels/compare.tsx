@@ -3,13 +3,12 @@ import type { SessionState } from "../../core/api/types";
 import { addLane, CONTROL, toggleCompare } from "../../core/state/commands";
 import { comparisonLanes, lanesToCompare } from "../../core/state/lanes";
 import { titleOf } from "../../core/state/laws";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { Problem } from "../../core/widgets/form";
 import { ComparisonRow } from "./comparisonlanes";
 import { LawPicker } from "./lawpicker";
 
 const MAX_LANES = 4;
-const words = text.comparisons;
 
 /** Comparison lanes: switch on and off, add, set, remove. */
 export function Compare({ state }: { state: SessionState }) {
@@ -22,7 +21,7 @@ export function Compare({ state }: { state: SessionState }) {
   const compared = isOn ? others.map(({ controller }) => controller) : lanesToCompare(state);
   if (compared.length === 0) return null;
   const names = [...new Set(compared.map(({ law }) => law))].map(titleOf).join(", ");
-  const whyNotAdded = isFull ? words.full(most) : words.addHint;
+  const whyNotAdded = isFull ? t("comparisons.full", { most }) : t("comparisons.addHint");
   return (
     <>
       <div class="line">
@@ -34,23 +33,23 @@ export function Compare({ state }: { state: SessionState }) {
           aria-keyshortcuts="c"
           aria-describedby={id}
           disabled={isRecording}
-          title={isRecording ? text.compare.whileRecording : text.compare.does}
+          title={isRecording ? t("compare.whileRecording") : t("compare.does")}
           onClick={() => void toggleCompare(state)}
         >
           <span class="rigid compare-track" aria-hidden="true" />
-          <span class="grow">{text.compare.with(names)}</span>
+          <span class="grow">{t("compare.with", { law: names })}</span>
         </button>
         <LawPicker
-          label={words.add}
-          button={words.add}
-          title={isRecording ? text.compare.whileRecording : whyNotAdded}
+          label={t("comparisons.add")}
+          button={t("comparisons.add")}
+          title={isRecording ? t("compare.whileRecording") : whyNotAdded}
           value={null}
           isDisabled={isRecording || isFull}
           onChoose={(law) => addLane(state, law)}
         />
       </div>
       {isOn && (
-        <ul class="stack tight" aria-label={words.list}>
+        <ul class="stack tight" aria-label={t("comparisons.list")}>
           {others.map((lane) => (
             <ComparisonRow
               key={lane.id}
@@ -62,7 +61,7 @@ export function Compare({ state }: { state: SessionState }) {
         </ul>
       )}
       <span class="visually-hidden" id={id}>
-        {isRecording ? text.compare.whileRecording : text.compare.does}
+        {isRecording ? t("compare.whileRecording") : t("compare.does")}
       </span>
       <Problem control={CONTROL.compare} />
     </>

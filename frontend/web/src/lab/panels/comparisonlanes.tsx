@@ -7,11 +7,9 @@ import { perform } from "../../core/state/actions";
 import { CONTROL, removeLane } from "../../core/state/commands";
 import { type ComparisonLane, hasOwnSettings } from "../../core/state/lanes";
 import { lawOf, titleOf } from "../../core/state/laws";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { LaneForm } from "./laneform";
 import { LawPicker } from "./lawpicker";
-
-const words = text.comparisons;
 
 interface ComparisonLanesProps {
   state: SessionState;
@@ -32,22 +30,22 @@ export function ComparisonRow({ state, comparison, isRecording }: ComparisonLane
       <div class="line comparison-row">
         <Swatch look={lineStyleOfLane(lineStyle, false)} />
         <LawPicker
-          label={words.law(name)}
-          title={words.lawHint}
+          label={t("comparisons.law", { name })}
+          title={t("comparisons.lawHint")}
           value={controller.law}
           button={title}
           onChoose={(next) => perform(CONTROL.compare, putLane(lane, { law: next }))}
         />
         <span class="hint grow breaks">
-          {label || (hasOwnSettings(controller) ? words.own : "")}
+          {label || (hasOwnSettings(controller) ? t("comparisons.own") : "")}
         </span>
         <button
           type="button"
           class="quiet"
           aria-expanded={isOpen}
           aria-controls={id}
-          aria-label={words.set(name)}
-          title={words.setHint}
+          aria-label={t("comparisons.set", { name })}
+          title={t("comparisons.setHint")}
           onClick={() => setOpen(!isOpen)}
         >
           <svg viewBox="0 0 16 16" aria-hidden="true">
@@ -57,8 +55,8 @@ export function ComparisonRow({ state, comparison, isRecording }: ComparisonLane
         <button
           type="button"
           class="quiet"
-          aria-label={words.remove(name)}
-          title={isRecording ? text.compare.whileRecording : words.remove(name)}
+          aria-label={t("comparisons.remove", { name })}
+          title={isRecording ? t("compare.whileRecording") : t("comparisons.remove", { name })}
           disabled={isRecording}
           onClick={() => void removeLane(state, lane)}
         >

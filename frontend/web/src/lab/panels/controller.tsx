@@ -6,7 +6,7 @@ import { currentValueOr } from "../../core/state/conflicts";
 import { armOf } from "../../core/state/joints";
 import { comparisonLaws } from "../../core/state/lanes";
 import { lawOf, titleOf } from "../../core/state/laws";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { Problem } from "../../core/widgets/form";
 import { PanelButton } from "../../core/widgets/panel";
 import { MathSymbol } from "../../core/widgets/symbol";
@@ -26,13 +26,13 @@ export function Controller({ state, isBasic }: { state: SessionState; isBasic: b
   const present = lawOf(law);
   return (
     <Group
-      title={text.controller.title}
+      title={t("controller.title")}
       topic={isBasic ? undefined : "controller"}
       aside={
         <LawPicker
-          label={`${text.controller.law}: ${titleOf(law)}`}
+          label={`${t("controller.law")}: ${titleOf(law)}`}
           button={titleOf(law)}
-          title={text.laws.choose}
+          title={t("laws.choose")}
           value={law}
           onChoose={(next) => perform("controller.law", putLaw(next, comparisonLaws(next, state)))}
         />
@@ -41,9 +41,9 @@ export function Controller({ state, isBasic }: { state: SessionState; isBasic: b
       <p class="hint is-about">
         <MathSymbol text={present?.summary ?? ""} />
       </p>
-      {isExact(state.configuration) && <p class="hint">{text.controller.exact}</p>}
+      {isExact(state.configuration) && <p class="hint">{t("controller.exact")}</p>}
       {areJointsDifferent(state, ["law", "gains", "parameters"]) && (
-        <p class="hint">{text.arm.differ}</p>
+        <p class="hint">{t("arm.differ")}</p>
       )}
       <Problem control="controller.law" />
       {!isBasic && (
@@ -52,11 +52,11 @@ export function Controller({ state, isBasic }: { state: SessionState; isBasic: b
           {(!present || present.takes_gains) && <Gains gains={gains} />}
           {armOf(state) === null && (
             <div class="row tune-open">
-              <PanelButton isOpen={isTuning} hint={text.tuning.openHint}>
-                {text.tuning.open}
+              <PanelButton isOpen={isTuning} hint={t("tuning.openHint")}>
+                {t("tuning.open")}
               </PanelButton>
-              <PanelButton isOpen={isIdentifying} hint={text.identification.openHint}>
-                {text.identification.open}
+              <PanelButton isOpen={isIdentifying} hint={t("identification.openHint")}>
+                {t("identification.open")}
               </PanelButton>
             </div>
           )}
@@ -92,8 +92,8 @@ function Coefficients({ which, symbol, gains }: CoefficientsProps) {
         <Field
           key={`${which}.${index}`}
           name={`gains.${which}.${index}`}
-          label={text.gains.coefficient(symbol, index)}
-          unit={text.gains.coefficientUnit(values.length - index)}
+          label={t("gains.coefficient", { index: "₀₁₂₃"[index] ?? "", symbol })}
+          unit={values.length - index === 1 ? "1/s" : `1/s${"⁰¹²³⁴"[values.length - index]}`}
           value={value}
           send={(next) => send(index, next)}
         />
@@ -107,7 +107,7 @@ function Gains({ gains }: { gains: GainsState }) {
     <>
       <DesignSummary />
       <details class="more">
-        <summary>{text.gains.coefficients}</summary>
+        <summary>{t("gains.coefficients")}</summary>
         <Coefficients which="position_coefficients" symbol="q" gains={gains} />
         <Coefficients which="stiffness_coefficients" symbol="σ" gains={gains} />
       </details>

@@ -3,7 +3,7 @@ import type { SessionState } from "../../core/api/types";
 import { settingsOf } from "../../core/state/arm";
 import { takesCommands } from "../../core/state/control";
 import { armOf } from "../../core/state/joints";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { ArmGroup } from "./armgroup";
 import { Controller } from "./controller";
 import { GroupIndex } from "./group";
@@ -31,7 +31,7 @@ export function Controls({ state: session, isBasic = false }: ControlsProps) {
       id="controls"
       tabIndex={-1}
       class="surface column joined controls"
-      aria-label={text.controls.heading}
+      aria-label={t("controls.heading")}
     >
       {/* Without control nothing in it takes the focus, and the keyboard has to scroll it. */}
       <div class="groups" ref={groups} tabIndex={takesCommands.value ? undefined : 0}>

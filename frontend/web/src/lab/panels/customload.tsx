@@ -5,7 +5,7 @@ import { quantityProps } from "../../core/quantities";
 import { perform } from "../../core/state/actions";
 import { isArm, settingsJoint } from "../../core/state/arm";
 import { initialValues, kinds, quantityOfParameter, readForm } from "../../core/state/kinds";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { Choice, Problem } from "../../core/widgets/form";
 import { NumberField } from "../../core/widgets/numberinput";
 import { EnduranceNote } from "../../hardware/endurance";
@@ -14,7 +14,7 @@ type Channel = "0" | "1" | "2";
 
 const CHANNELS = (["0", "1", "2"] as const).map((value) => ({
   value,
-  label: text.channels[Number(value)] as string,
+  label: t("channels", { returnObjects: true })[Number(value)] as string,
 }));
 
 /** A user-defined torque on one of the three channels, of every kind that has a form. */
@@ -39,13 +39,13 @@ export function CustomLoad({ isShown }: { isShown: boolean }) {
   return (
     <form class="stack" onSubmit={submit}>
       <Choice
-        label={text.load.customKind}
+        label={t("load.customKind")}
         options={offered.map((row) => ({ value: row.kind, label: row.title }))}
         value={kind}
         onChoose={setKind}
       />
       <Choice
-        label={text.load.customChannel}
+        label={t("load.customChannel")}
         options={CHANNELS}
         value={channel}
         onChoose={setChannel}
@@ -59,10 +59,12 @@ export function CustomLoad({ isShown }: { isShown: boolean }) {
           onInput={(value) => setTyped({ ...typed, [parameter.name]: value })}
         />
       ))}
-      {isArm.value && <p class="hint">{text.arm.torqueOn(settingsJoint.value)}</p>}
+      {isArm.value && (
+        <p class="hint">{settingsJoint.value === 1 ? t("arm.torqueOn1") : t("arm.torqueOn2")}</p>
+      )}
       <EnduranceNote load={isShown ? draft : null} />
       <button type="submit" class="button">
-        {text.load.apply}
+        {t("load.apply")}
       </button>
       <Problem control="load.custom" />
     </form>

@@ -1,5 +1,5 @@
 import { useId } from "preact/hooks";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { formatInput } from "../../core/units";
 import { Problem } from "../../core/widgets/form";
 import { NumberField } from "../../core/widgets/numberinput";
@@ -44,7 +44,9 @@ export function Field({ name, value, send, factor = 1, range, ...field }: FieldP
             min={0}
             max={STEPS}
             value={positionOf(shown, range)}
-            aria-label={text.controls.slider(labelRest ? `${label} ${labelRest}` : label)}
+            aria-label={t("controls.slider", {
+              label: labelRest ? `${label} ${labelRest}` : label,
+            })}
             aria-valuetext={`${formatInput(shown)} ${unit}`}
             aria-describedby={id}
             onInput={(event) => drag(fromSlider(event))}

@@ -3,7 +3,7 @@ import type { ComponentChildren, RefObject } from "preact";
 import { useId } from "preact/hooks";
 import { EquationButton } from "../../core/equations/equation";
 import type { Topic } from "../../core/equations/equations";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { goTo, headingOf, useBelow } from "../../core/widgets/below";
 
 interface GroupProps {
@@ -35,7 +35,7 @@ export function Group({ title, topic, aside, children }: GroupProps) {
 export function GroupIndex({ groups }: { groups: RefObject<HTMLElement | null> }) {
   const below = useBelow(groups, ".group");
   return (
-    <nav class="group-index" aria-label={text.controls.index}>
+    <nav class="group-index" aria-label={t("controls.index")}>
       {below.map((group) => {
         const heading = headingOf(group);
         return (

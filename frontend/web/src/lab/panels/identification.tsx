@@ -5,12 +5,10 @@ import type { SessionState } from "../../core/api/types";
 import { perform } from "../../core/state/actions";
 import { takesCommands } from "../../core/state/control";
 import { session } from "../../core/state/session";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { formatSeconds } from "../../core/units";
 import { Problem } from "../../core/widgets/form";
 import { Panel } from "../../core/widgets/panel";
-
-const words = text.identification;
 
 export const isIdentifying = signal(false);
 
@@ -23,8 +21,12 @@ export function IdentificationPanel() {
   const state = session.value;
   if (!isIdentifying.value || state === null) return null;
   return (
-    <Panel title={words.title} class="identification" onClose={close}>
-      <fieldset class="stack" disabled={!takesCommands.value} aria-label={words.title}>
+    <Panel title={t("identification.title")} class="identification" onClose={close}>
+      <fieldset
+        class="stack"
+        disabled={!takesCommands.value}
+        aria-label={t("identification.title")}
+      >
         <Identification state={state} />
       </fieldset>
     </Panel>
@@ -36,40 +38,42 @@ function Identification({ state }: { state: SessionState }) {
   return (
     <>
       <p class="hint">
-        {words.explanation} <code>{words.command}</code>
+        {t("identification.explanation")} <code>{t("identification.command")}</code>
       </p>
       {excitation === null ? (
         <button
           type="button"
           class="button"
-          onClick={() => void perform("identification.excite", startExcitation(words.runName))}
+          onClick={() =>
+            void perform("identification.excite", startExcitation(t("identification.runName")))
+          }
         >
-          {words.excite}
+          {t("identification.excite")}
         </button>
       ) : (
         <div class="identification-run">
           <progress
             max={excitation.duration_s}
             value={excitation.elapsed_s}
-            aria-label={words.title}
+            aria-label={t("identification.title")}
           />
           <span>
-            {words.exciting(
-              formatSeconds(excitation.elapsed_s),
-              formatSeconds(excitation.duration_s),
-            )}
+            {t("identification.exciting", {
+              elapsed: formatSeconds(excitation.elapsed_s),
+              all: formatSeconds(excitation.duration_s),
+            })}
           </span>
           <button
             type="button"
             class="button"
             onClick={() => void perform("identification.excite", stopExcitation)}
           >
-            {words.stop}
+            {t("identification.stop")}
           </button>
         </div>
       )}
       <Problem control="identification.excite" />
-      {state.bench === null ? <ModelFile /> : <p class="hint">{words.bench}</p>}
+      {state.bench === null ? <ModelFile /> : <p class="hint">{t("identification.bench")}</p>}
     </>
   );
 }
@@ -86,7 +90,7 @@ function ModelFile() {
   return (
     <>
       <label class="button">
-        {words.file}
+        {t("identification.file")}
         <input
           type="file"
           accept=".toml"
@@ -96,7 +100,7 @@ function ModelFile() {
         />
       </label>
       <p class="hint" id={id}>
-        {words.fileHint}
+        {t("identification.fileHint")}
       </p>
       <Problem control="identification.file" />
     </>

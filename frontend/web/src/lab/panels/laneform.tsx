@@ -3,14 +3,13 @@ import type { Gains, LawRow, SessionState } from "../../core/api/types";
 import { quantityProps } from "../../core/quantities";
 import { perform } from "../../core/state/actions";
 import { type ComparisonLane, gainsOf, hasOwnSettings } from "../../core/state/lanes";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { Problem } from "../../core/widgets/form";
 import type { SliderRange } from "../../core/widgets/scale";
 import { BANDWIDTH_BOUNDS, coefficientsOf } from "../design/poles";
 import { Field } from "./field";
 import { ParameterFields } from "./law";
 
-const words = text.comparisons;
 const POLES: SliderRange = { min: 5, max: 200, logarithmic: true };
 const OBSERVER: SliderRange = { min: 2, max: 300, logarithmic: true };
 
@@ -36,14 +35,14 @@ function Bandwidths({ state, comparison }: Omit<LaneFormProps, "law">) {
         <Field
           name={`lanes.${id}.${group}`}
           label={symbol}
-          labelRest={words.poles(text.design[group])}
-          unit={text.design.unit}
+          labelRest={t("comparisons.poles", { group: t(`design.${group}`) })}
+          unit={t("design.unit")}
           {...BANDWIDTH_BOUNDS}
           value={bandwidth}
           range={POLES}
           send={(value) => put({ [`${group}_coefficients`]: coefficientsOf(held.length, value) })}
         />
-        {!isTogether && <p class="hint">{words.apart(symbol)}</p>}
+        {!isTogether && <p class="hint">{t("comparisons.apart", { symbol })}</p>}
       </>
     );
   };
@@ -65,14 +64,14 @@ export function LaneForm({ law, state, comparison }: LaneFormProps) {
   return (
     <div class="stack tight lane-form">
       <p class="hint">
-        {isOwn ? words.ownHint : words.sharedHint}
+        {isOwn ? t("comparisons.ownHint") : t("comparisons.sharedHint")}
         {isOwn && (
           <button
             type="button"
             class="quiet"
             onClick={() => void perform(`lanes.${id}`, putLane(lane, { law: controller.law }))}
           >
-            {words.share}
+            {t("comparisons.share")}
           </button>
         )}
       </p>
@@ -89,7 +88,7 @@ export function LaneForm({ law, state, comparison }: LaneFormProps) {
           name={`lanes.${id}.observer`}
           {...quantityProps("bandwidth_rad_per_s")}
           label="β"
-          labelRest={text.design.observerBandwidth}
+          labelRest={t("design.observerBandwidth")}
           value={observer.bandwidth_rad_per_s[0]}
           range={OBSERVER}
           send={(beta) =>

@@ -2,11 +2,10 @@ import type { ComponentChildren } from "preact";
 import { useEffect, useId, useRef, useState } from "preact/hooks";
 import type { Law, LawRow } from "../../core/api/types";
 import { brokenLaws, findLaws, groupLaws, pickLaw, usableLaws } from "../../core/state/laws";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { Popup } from "../../core/widgets/popup";
 import { MathSymbol } from "../../core/widgets/symbol";
 
-const words = text.laws;
 const MAX_WITHOUT_SEARCH = 6;
 
 /** Arrow keys move through the search field and the buttons of a list; Home and End, too. */
@@ -40,7 +39,7 @@ function Row({ law, isCurrent, onChoose }: { law: LawRow; isCurrent: boolean } &
         onClick={() => onChoose(law.name)}
       >
         <span class="tone is-accent strong" aria-hidden="true">
-          {isCurrent && words.presentSign}
+          {isCurrent && t("laws.presentSign")}
         </span>
         <strong>{law.title}</strong>
         <span class="hint law-summary">
@@ -70,8 +69,8 @@ function LawList({ value, onChoose }: LawListProps) {
       {isMany && (
         <input
           type="search"
-          aria-label={words.search}
-          placeholder={words.search}
+          aria-label={t("laws.search")}
+          placeholder={t("laws.search")}
           value={query}
           onInput={(event) => setQuery(event.currentTarget.value)}
           onKeyDown={(event) => {
@@ -83,11 +82,11 @@ function LawList({ value, onChoose }: LawListProps) {
         />
       )}
       <span class="visually-hidden" role="status">
-        {query.trim() !== "" && words.found(matches.length)}
+        {query.trim() !== "" && t("laws.found", { count: matches.length })}
       </span>
       {groupLaws(matches).map(({ estimate, laws }) => (
         <section key={estimate} aria-labelledby={isMany ? `${id}-${estimate}` : undefined}>
-          {isMany && <h3 id={`${id}-${estimate}`}>{words.groups[estimate]}</h3>}
+          {isMany && <h3 id={`${id}-${estimate}`}>{t(`laws.groups.${estimate}`)}</h3>}
           <ul>
             {laws.map((law) => (
               <Row
@@ -101,7 +100,7 @@ function LawList({ value, onChoose }: LawListProps) {
           </ul>
         </section>
       ))}
-      {matches.length === 0 && <p class="hint">{words.none}</p>}
+      {matches.length === 0 && <p class="hint">{t("laws.none")}</p>}
       {brokenLaws.value.map(({ name, problem }) => (
         <p class="problem" key={name}>
           {problem}

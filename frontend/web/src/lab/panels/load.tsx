@@ -10,14 +10,14 @@ import {
   nextWeightForm,
   type WeightForm,
 } from "../../core/state/plant";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { Choice, Problem } from "../../core/widgets/form";
 import { CustomLoad } from "./customload";
 import { Group } from "./group";
 
 const FORMS: readonly { value: Exclude<WeightForm, "torque" | "tip">; label: string }[] = [
-  { value: "paper", label: text.load.paper },
-  { value: "mass", label: text.load.mass },
+  { value: "paper", label: t("load.paper") },
+  { value: "mass", label: t("load.mass") },
 ];
 
 /** A push at the tip and a wall have controls of their own. */
@@ -36,14 +36,14 @@ function LoadRows({ state }: { state: SessionState }) {
       {rows.map((row) => (
         <li key={row.id} class="spread">
           <span>
-            {row.joint !== null && `${text.arm.onJoint(row.joint)}: `}
+            {row.joint !== null && `${t("arm.onJoint", { joint: row.joint })}: `}
             {row.label}
-            {!row.active && ` · ${text.load.comesAt(row.start_s)}`}
+            {!row.active && ` · ${t("load.comesAt", { time: Number(row.start_s.toFixed(2)) })}`}
           </span>
           <button
             type="button"
             class="quiet"
-            aria-label={text.load.removeThis(row.label)}
+            aria-label={t("load.removeThis", { what: row.label })}
             onClick={() => void perform("load.rows", removeLoad(row.id))}
           >
             ✕
@@ -57,7 +57,7 @@ function LoadRows({ state }: { state: SessionState }) {
             class="quiet"
             onClick={() => void perform("load.rows", removeAllLoads)}
           >
-            {text.load.removeAll}
+            {t("load.removeAll")}
           </button>
         </li>
       )}
@@ -71,7 +71,7 @@ function FormPicker({ state }: { state: SessionState }) {
   if (form === "torque" || form === "tip") return null;
   return (
     <Choice
-      label={text.load.form}
+      label={t("load.form")}
       options={FORMS}
       value={form}
       onChoose={(form) => {
@@ -82,28 +82,28 @@ function FormPicker({ state }: { state: SessionState }) {
 }
 
 const words = {
-  paper: text.load.paperDoes,
-  mass: text.load.massDoes,
-  torque: text.load.torqueDoes,
-  tip: text.arm.does,
+  paper: t("load.paperDoes"),
+  mass: t("load.massDoes"),
+  torque: t("load.torqueDoes"),
+  tip: t("arm.does"),
 } as const;
 
 export function Loads({ state }: { state: SessionState }) {
   const [isShown, show] = useState(false);
   if (isRealBench(state.bench)) {
     return (
-      <Group title={text.load.title} topic="load">
-        <p class="hint">{text.load.markDoes}</p>
+      <Group title={t("load.title")} topic="load">
+        <p class="hint">{t("load.markDoes")}</p>
       </Group>
     );
   }
   return (
-    <Group title={text.load.title} topic="load" aside={<FormPicker state={state} />}>
+    <Group title={t("load.title")} topic="load" aside={<FormPicker state={state} />}>
       <p class="hint is-about">{words[nextWeightForm(state)]}</p>
       <LoadRows state={state} />
       <Problem control="load.rows" />
       <details class="more" onToggle={(event) => show(event.currentTarget.open)}>
-        <summary>{text.load.custom}</summary>
+        <summary>{t("load.custom")}</summary>
         <CustomLoad isShown={isShown} />
       </details>
     </Group>

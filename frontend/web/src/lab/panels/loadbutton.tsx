@@ -13,7 +13,7 @@ import {
   type WeightForm,
 } from "../../core/state/plant";
 import { isLive } from "../../core/state/session";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { formatInput } from "../../core/units";
 import { Problem } from "../../core/widgets/form";
 import { EnduranceNote } from "../../hardware/endurance";
@@ -26,7 +26,7 @@ function WeightPicture({ isActive, form }: { isActive: boolean; form: WeightForm
         <path class="weight-ring" d="M9 36a17 17 0 1 1 30 0" />
         <path class="weight-body" d="M33 33l13 1-8 10z" />
         <text class="weight-torque" x="24" y="31" text-anchor="middle">
-          {form === "paper" ? text.load.torque2 : text.load.torqueSign}
+          {form === "paper" ? t("load.torque2") : t("load.torqueSign")}
         </text>
       </svg>
     );
@@ -37,7 +37,7 @@ function WeightPicture({ isActive, form }: { isActive: boolean; form: WeightForm
       <circle class="weight-ring" cx="24" cy="19" r="4.5" />
       <path class="weight-body" d="M14.5 24h19l5.5 19a3 3 0 0 1-3 4H12a3 3 0 0 1-3-4z" />
       <text class="weight-text" x="24" y="41" text-anchor="middle">
-        {form === "mass" ? text.load.weight : text.load.massSign}
+        {form === "mass" ? t("load.weight") : t("load.massSign")}
       </text>
     </svg>
   );
@@ -52,28 +52,30 @@ function formOf(state: SessionState): WeightForm {
 }
 
 function caption(state: SessionState, isActive: boolean): string {
-  if (!isLive.value) return text.status.notKnown;
-  if (isRealBench(state.bench)) return isActive ? text.load.marked : text.load.mark;
+  if (!isLive.value) return t("status.notKnown");
+  if (isRealBench(state.bench)) return isActive ? t("load.marked") : t("load.mark");
   const form = formOf(state);
-  if (form === "tip") return text.arm.short;
-  const torque = text.load.torqueShort(formatInput(Math.abs(state.actuator.load.torque_nm[0])));
+  if (form === "tip") return t("arm.short");
+  const torque = t("load.torqueShort", {
+    torque: formatInput(Math.abs(state.actuator.load.torque_nm[0])),
+  });
   if (isActive && form === "torque") return torque;
-  if (isActive) return form === "paper" ? text.load.acts : text.load.hangs;
+  if (isActive) return form === "paper" ? t("load.acts") : t("load.hangs");
   const next = nextWeightAt(state);
-  if (next !== null) return text.load.comesAt(next);
+  if (next !== null) return t("load.comesAt", { time: Number(next.toFixed(2)) });
   if (form === "torque") return torque;
-  return form === "paper" ? text.load.paperShort : text.load.massShort;
+  return form === "paper" ? t("load.paperShort") : t("load.massShort");
 }
 
 function words(state: SessionState, isActive: boolean): string {
   if (nextWeightForm(state) === "tip") {
     const mass = formatInput(hungAtTip(state) || tipMassKg.value);
-    return isActive ? text.arm.remove(mass) : text.arm.hang(mass);
+    return isActive ? t("arm.remove", { mass }) : t("arm.hang", { mass });
   }
-  if (isRealBench(state.bench)) return isActive ? text.load.markRemoved : text.load.markHung;
+  if (isRealBench(state.bench)) return isActive ? t("load.markRemoved") : t("load.markHung");
   if (nextWeightForm(state) === "torque")
-    return isActive ? text.load.removeTorque : text.load.addTorque;
-  return isActive ? text.load.remove : text.load.hang;
+    return isActive ? t("load.removeTorque") : t("load.addTorque");
+  return isActive ? t("load.remove") : t("load.hang");
 }
 
 /** The main button: adds or removes the 3 kg on the link. */

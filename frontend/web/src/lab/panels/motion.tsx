@@ -3,7 +3,7 @@ import { putPosition } from "../../core/api/client";
 import type { PositionReference, RequestOf, SessionState } from "../../core/api/types";
 import { quantityProps } from "../../core/quantities";
 import { currentValueOr } from "../../core/state/conflicts";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { toRadians } from "../../core/units";
 import { Field } from "./field";
 import { ReferenceGroup } from "./reference";
@@ -16,9 +16,9 @@ const FIRST_SINE: RequestOf<Sine> = {
   frequency_hz: 0.2,
 };
 const KINDS = [
-  { value: "sine", label: text.motion.sine },
-  { value: "constant", label: text.motion.constant },
-  { value: "other", label: text.references.other },
+  { value: "sine", label: t("motion.sine") },
+  { value: "constant", label: t("motion.constant") },
+  { value: "other", label: t("references.other") },
 ] as const;
 
 function SineFields({ reference }: { reference: Sine }) {

@@ -3,7 +3,7 @@ import type { SessionState } from "../../core/api/types";
 import { quantityProps } from "../../core/quantities";
 import { currentValueOr } from "../../core/state/conflicts";
 import { lawOf } from "../../core/state/laws";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import type { SliderRange } from "../../core/widgets/scale";
 import { Field } from "./field";
 import { Group } from "./group";
@@ -21,9 +21,9 @@ export function Observer({ state }: { state: SessionState }) {
   };
   const isSpread = bandwidth.some((beta) => beta !== bandwidth[0]);
   return (
-    <Group title={text.observer.title} topic="disturbance">
+    <Group title={t("observer.title")} topic="disturbance">
       {present && present.estimate !== "observer" && (
-        <p class="hint">{text.observer.unused(present.title)}</p>
+        <p class="hint">{t("observer.unused", { law: present.title })}</p>
       )}
       <Field
         name="observer.all"
@@ -32,15 +32,15 @@ export function Observer({ state }: { state: SessionState }) {
         range={RANGE}
         send={(beta) => putObserver(beta, beta, beta)}
       />
-      {isSpread && <p class="hint">{text.observer.spread}</p>}
+      {isSpread && <p class="hint">{t("observer.spread")}</p>}
       <details class="more">
-        <summary>{text.observer.each}</summary>
+        <summary>{t("observer.each")}</summary>
         {bandwidth.map((beta, index) => (
           <Field
-            key={text.channels[index]}
+            key={t("channels", { returnObjects: true })[index]}
             name={`observer.${index}`}
             {...quantityProps("bandwidth_rad_per_s")}
-            label={text.channels[index] as string}
+            label={t("channels", { returnObjects: true })[index] as string}
             value={beta}
             range={RANGE}
             send={(next) => sendOne(index, next)}

@@ -1,16 +1,16 @@
 import { useId } from "preact/hooks";
 import { patchActuator, patchNominal } from "../../core/api/client";
 import type { ActuatorParameters, Configuration } from "../../core/api/types";
+import { PARAMETERS } from "../../core/quantities";
 import type { Demand } from "../../core/readnumber";
 import { perform } from "../../core/state/actions";
 import { describeActuator, nameOfActuator, patchOf, SVSA } from "../../core/state/actuators";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { formatNumber } from "../../core/units";
 import { Problem } from "../../core/widgets/form";
 import { NumberInput } from "../../core/widgets/numberinput";
 import { type ServerNumber, useServerNumber } from "./draft";
 
-const words = text.realism;
 /** Format of a parameter in the table. */
 interface Row {
   key: string;
@@ -48,7 +48,9 @@ function differenceOf(model: number, actual: number): string {
   if (actual === 0 || model === actual) return model === actual ? "0" : "";
   const percent = 100 * (model / actual - 1);
   const digits = Math.abs(percent) < 10 ? 1 : 0;
-  return words.percent(`${percent > 0 ? "+" : ""}${formatNumber(percent, 3, digits)}`);
+  return t("realism.percent", {
+    value: `${percent > 0 ? "+" : ""}${formatNumber(percent, 3, digits)}`,
+  });
 }
 
 type Models = Pick<Configuration, "actuator" | "nominal">;
@@ -62,17 +64,19 @@ function listRows({ actuator }: Models): Row[] {
     const row = described.find((parameter) => parameter.name === key);
     return { label, unit, min: row?.low ?? undefined, max: row?.high ?? undefined };
   };
-  const common = Object.entries(words.names).filter(([key]) => typeof actuator[key] === "number");
+  const common = (Object.keys(PARAMETERS) as (keyof typeof PARAMETERS)[]).filter(
+    (key) => typeof actuator[key] === "number",
+  );
   const own = described.filter(
-    ({ name: key, kind }) => name !== SVSA && kind === "number" && !(key in words.names),
+    ({ name: key, kind }) => name !== SVSA && kind === "number" && !(key in PARAMETERS),
   );
   return [
-    ...common.map(([key, [symbol, meaning, unit]]) => ({
-      key,
-      symbol,
-      meaning: `${meaning}, ${unit}`,
-      demand: demandOf(key, `${symbol} ${meaning}`, unit),
-    })),
+    ...common.map((key) => {
+      const [symbol, unit] = PARAMETERS[key];
+      const meaning = t(`realism.names.${key}`);
+      const demand = demandOf(key, `${symbol} ${meaning}`, unit);
+      return { key, symbol, meaning: `${meaning}, ${unit}`, demand };
+    }),
     ...own.map(({ name: key, meaning, unit }) => ({
       key,
       symbol: "",
@@ -95,14 +99,14 @@ export function ParameterTable({ actuator, nominal }: Models) {
   const nameOf = (key: string, column: string) => `realism.${column}.${key}`;
   return (
     <>
-      <p class="hint">{words.parametersHint}</p>
+      <p class="hint">{t("realism.parametersHint")}</p>
       <table class="small parameters">
         <thead>
           <tr>
-            <th scope="col">{words.parameter}</th>
-            <th scope="col">{words.actuator}</th>
-            <th scope="col">{words.nominal}</th>
-            <th scope="col">{words.difference}</th>
+            <th scope="col">{t("realism.parameter")}</th>
+            <th scope="col">{t("realism.actuator")}</th>
+            <th scope="col">{t("realism.nominal")}</th>
+            <th scope="col">{t("realism.difference")}</th>
           </tr>
         </thead>
         <tbody>
@@ -115,9 +119,18 @@ export function ParameterTable({ actuator, nominal }: Models) {
                 <Cell
                   key={column}
                   name={nameOf(key, column)}
-                  label={words.cell(`${symbol} ${meaning}`.trim(), words[column])}
+                  label={t("realism.cell", {
+                    name: `${symbol} ${meaning}`.trim(),
+                    column: t(`realism.${column}`),
+                  })}
                   describedBy={id}
-                  demand={{ ...demand, label: words.cell(demand.label ?? "", words[column]) }}
+                  demand={{
+                    ...demand,
+                    label: t("realism.cell", {
+                      name: demand.label ?? "",
+                      column: t(`realism.${column}`),
+                    }),
+                  }}
                   value={numberOf(held[column], key)}
                   send={(value) => patch({ [key]: value })}
                 />
@@ -138,7 +151,7 @@ export function ParameterTable({ actuator, nominal }: Models) {
         disabled={isModelExact}
         onClick={() => void perform("realism.exact", patchNominal(patchOf(actuator)))}
       >
-        {words.exact}
+        {t("realism.exact")}
       </button>
       <Problem control="realism.exact" />
     </>

@@ -4,17 +4,16 @@ import type { EffectRow, Effects, SessionState } from "../../core/api/types";
 import { perform } from "../../core/state/actions";
 import { currentValueOr } from "../../core/state/conflicts";
 import { choosePreset, kinds, type Preset, quantityOfParameter } from "../../core/state/kinds";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { Choice, Problem } from "../../core/widgets/form";
 import { Switch } from "../../core/widgets/switch";
 import { Field } from "./field";
 import { Group } from "./group";
 import { ParameterTable } from "./parameters";
 
-const words = text.realism;
-const CHOICES = (Object.keys(words.presets) as Preset[]).map((value) => ({
+const CHOICES = (["ideal", "rig", "full"] as const satisfies Preset[]).map((value) => ({
   value,
-  label: words.presets[value],
+  label: t(`realism.presets.${value}`),
 }));
 
 /** Non-ideal effects, and errors of the controller's model. */
@@ -22,10 +21,10 @@ export function Realism({ state }: { state: SessionState }) {
   const { effects, effects_preset: preset, actuator, nominal } = state.configuration;
   return (
     <Group
-      title={words.title}
+      title={t("realism.title")}
       aside={
         <Choice
-          label={words.choose}
+          label={t("realism.choose")}
           options={CHOICES}
           value={preset}
           onChoose={(next) => perform("realism.preset", choosePreset(next))}
@@ -34,16 +33,16 @@ export function Realism({ state }: { state: SessionState }) {
     >
       <p class="hint">
         {preset === null
-          ? words.mixture
+          ? t("realism.mixture")
           : kinds.value?.presets.find(({ name }) => name === preset)?.summary}
       </p>
       <Problem control="realism.preset" />
       <details class="more">
-        <summary>{words.each}</summary>
+        <summary>{t("realism.each")}</summary>
         <EffectList effects={effects} />
       </details>
       <details class="more">
-        <summary>{words.parameters}</summary>
+        <summary>{t("realism.parameters")}</summary>
         <ParameterTable actuator={actuator} nominal={nominal} />
       </details>
     </Group>

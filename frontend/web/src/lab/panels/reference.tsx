@@ -5,7 +5,7 @@ import type { Follows } from "../../core/api/design";
 import type { PositionReference, StiffnessReference } from "../../core/api/types";
 import { perform } from "../../core/state/actions";
 import { areJointsDifferent, settings } from "../../core/state/arm";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { Choice, type Option, Problem } from "../../core/widgets/form";
 import { Group } from "./group";
 import { Shaped, titleOf } from "./shaped";
@@ -34,7 +34,6 @@ interface ReferenceGroupProps {
 /** The reference of the session: its kind, its fields, or the form of a finite one. */
 export function ReferenceGroup(props: ReferenceGroupProps) {
   const { topic, follows, reference, kinds, onChoose, children } = props;
-  const { title, kind } = text[topic];
   const configuration = settings.value?.configuration;
   const [isOther, setOther] = useState(false);
   const shown = isOther ? "other" : kindOf(reference);
@@ -44,16 +43,16 @@ export function ReferenceGroup(props: ReferenceGroupProps) {
   };
   return (
     <Group
-      title={title}
+      title={t(`${topic}.title`)}
       topic={topic}
-      aside={<Choice label={kind} options={kinds} value={shown} onChoose={choose} />}
+      aside={<Choice label={t(`${topic}.kind`)} options={kinds} value={shown} onChoose={choose} />}
     >
       <Problem control={`${topic}.kind`} />
       {settings.value && areJointsDifferent(settings.value, [follows]) && (
-        <p class="hint">{text.arm.differ}</p>
+        <p class="hint">{t("arm.differ")}</p>
       )}
       {shown !== kindOf(reference) && (
-        <p class="hint">{text.references.notApplied(nameOf(kinds, kindOf(reference)))}</p>
+        <p class="hint">{t("references.notApplied", { kind: nameOf(kinds, kindOf(reference)) })}</p>
       )}
       {shown === "other" && configuration !== undefined ? (
         <Shaped follows={follows} held={reference.kind} configuration={configuration} />
@@ -62,7 +61,10 @@ export function ReferenceGroup(props: ReferenceGroupProps) {
       )}
       {kindOf(reference) === "other" && (
         <p class="hint">
-          {text.references.following(titleOf(follows, reference.kind), reference.transition_s)}
+          {t("references.following", {
+            kind: titleOf(follows, reference.kind),
+            fadeS: reference.transition_s,
+          })}
         </p>
       )}
     </Group>

@@ -1,8 +1,6 @@
 /** References as an edited or opened list: steps line by line, a time series as CSV. */
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { MAX_LEVELS } from "./shapes";
-
-const words = text.references;
 
 interface ListProps {
   label: string;
@@ -27,8 +25,10 @@ function List({ label, rows, list, onList }: ListProps) {
 export function Levels({ unit, ...list }: Pick<ListProps, "list" | "onList"> & { unit: string }) {
   return (
     <>
-      <List label={words.levels(unit)} rows={6} {...list} />
-      <p class="hint">{words.levelsHint(unit, MAX_LEVELS)}</p>
+      <List label={t("references.levels", { unit })} rows={6} {...list} />
+      <p class="hint">
+        {t("references.levelsHint", { unit, most: MAX_LEVELS, half: MAX_LEVELS / 2 })}
+      </p>
     </>
   );
 }
@@ -41,7 +41,7 @@ export function Series({ list, onList }: Pick<ListProps, "list" | "onList">) {
   return (
     <>
       <label class="button">
-        {words.openCsv}
+        {t("references.openCsv")}
         <input
           type="file"
           class="visually-hidden"
@@ -49,8 +49,8 @@ export function Series({ list, onList }: Pick<ListProps, "list" | "onList">) {
           onChange={(event) => void open(event)}
         />
       </label>
-      <List label={words.pasteCsv} rows={4} list={list} onList={onList} />
-      <p class="hint">{words.csvHint}</p>
+      <List label={t("references.pasteCsv")} rows={4} list={list} onList={onList} />
+      <p class="hint">{t("references.csvHint")}</p>
     </>
   );
 }

@@ -22,7 +22,7 @@ import type {
 import { explain, perform } from "../../core/state/actions";
 import { initialValues, kinds, quantityOfParameter, readForm } from "../../core/state/kinds";
 import { session } from "../../core/state/session";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { DEGREES_PER_RADIAN, formatNumber } from "../../core/units";
 import { Choice, ErrorLine, Problem } from "../../core/widgets/form";
 import { NumberField } from "../../core/widgets/numberinput";
@@ -38,7 +38,6 @@ import {
   writeLevels,
 } from "./shapes";
 
-const words = text.references;
 /** Columns of a CSV. */
 const COLUMNS = { position: "position_deg", stiffness: "stiffness_nm_per_rad" } as const;
 const isListed = (shape: string): shape is Listed => shape === "steps" || shape === "series";
@@ -46,7 +45,7 @@ const isListed = (shape: string): shape is Listed => shape === "steps" || shape 
 /** Label of a kind of reference in the form. */
 export const titleOf = (follows: Follows, kind: string): string =>
   isListed(kind)
-    ? words.kinds[kind]
+    ? t(`references.kinds.${kind}`)
     : (kinds.value?.[follows].find((row) => row.kind === kind)?.title ?? kind);
 
 const PAUSE_MS = 300;
@@ -60,7 +59,7 @@ interface PreviewedReference {
 /** Content of a CSV, if it is for this quantity. */
 async function readCsv(follows: Follows, csv: string): Promise<Reference> {
   const series = await readSeries(csv);
-  if (series.follows !== follows) throw new RangeError(words.isOther[series.follows]);
+  if (series.follows !== follows) throw new RangeError(t(`references.isOther.${series.follows}`));
   return series.reference;
 }
 
@@ -97,7 +96,9 @@ export function Shaped({ follows, held, configuration }: ShapedProps) {
   const [shape, setShape] = useState(isKnown ? held : "steps");
   const [steps, setSteps] = useState(first);
   const [typed, setTyped] = useState<Record<string, number>>({});
-  const [csv, setCsv] = useState(words.example(COLUMNS[follows], first.low, first.high));
+  const [csv, setCsv] = useState(
+    `time_s,${COLUMNS[follows]}\n0,${first.low}\n1,${first.high}\n3,${first.low}\n`,
+  );
   const [levels, setLevels] = useState(writeLevels(first));
   const [previewed, setPreviewed] = useState<PreviewedReference | null>(null);
   const [refusal, setRefusal] = useState("");
@@ -145,13 +146,13 @@ export function Shaped({ follows, held, configuration }: ShapedProps) {
 
   return (
     <form class="stack" onSubmit={submit}>
-      <Choice label={words.kind} options={shapes} value={shape} onChoose={setShape} />
+      <Choice label={t("references.kind")} options={shapes} value={shape} onChoose={setShape} />
       {shape === "series" && <Series list={csv} onList={setCsv} />}
       {shape === "steps" &&
         INPUTS.map((name) => (
           <NumberField
             key={name}
-            label={words.inputs[name]}
+            label={t(`references.inputs.${name}`)}
             unit={units[name] ?? unit}
             {...INPUT_BOUNDS[name]}
             value={steps[name]}
@@ -177,20 +178,20 @@ export function Shaped({ follows, held, configuration }: ShapedProps) {
       <ErrorLine>{refusal}</ErrorLine>
       <div class="line">
         <button type="submit" class="button grow" disabled={previewed === null}>
-          {words.apply}
+          {t("references.apply")}
         </button>
         {isKnown && (
           <button
             type="button"
             class="button grow"
-            title={words.againHint}
+            title={t("references.againHint")}
             onClick={() => void perform(`${follows}.shaped`, repeat(follows))}
           >
-            {words.again}
+            {t("references.again")}
           </button>
         )}
       </div>
-      <p class="hint">{isListed(shape) ? words.does[shape] : kind?.hint}</p>
+      <p class="hint">{isListed(shape) ? t(`references.does.${shape}`) : kind?.hint}</p>
       <Problem control={`${follows}.shaped`} />
     </form>
   );
@@ -208,13 +209,13 @@ interface CourseProps {
 /** Preview of a reference: its demands, before it is applied. */
 function Course({ preview, unit, factor }: CourseProps) {
   const shown = (value: number) => formatNumber(value * factor, 3);
-  const caption = text.references.course(
-    shown(preview.low),
-    shown(preview.high),
+  const caption = t("references.course", {
+    least: shown(preview.low),
+    greatest: shown(preview.high),
     unit,
-    formatNumber(preview.time_s.at(-1), 3),
-    shown(preview.peak_rate),
-  );
+    end: formatNumber(preview.time_s.at(-1), 3),
+    rate: shown(preview.peak_rate),
+  });
   return (
     <figure class="sunken course">
       <svg

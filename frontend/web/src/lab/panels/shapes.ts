@@ -3,7 +3,7 @@ import type { Follows, Reference } from "../../core/api/design";
 import type { Configuration } from "../../core/api/types";
 import { type Demand, parseNumber } from "../../core/readnumber";
 import { findStiffness } from "../../core/state/stiffness";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { DEGREES_PER_RADIAN, formatInput } from "../../core/units";
 
 /** Kinds with their own form; any other is described by the server. */
@@ -65,12 +65,12 @@ export function readLevels(follows: Follows, list: string): Reference {
     const cells = line.trim().split(GAP).map(parseNumber);
     const values = cells.flatMap((cell) => ("value" in cell ? cell.value : []));
     if (cells.length !== 2 || values.length !== 2) {
-      throw new RangeError(text.references.noLevel(index + 1, line.trim()));
+      throw new RangeError(t("references.noLevel", { line: index + 1, written: line.trim() }));
     }
     return [values as [number, number]];
   });
   if (rows.length === 0 || rows.length > MAX_LEVELS) {
-    throw new RangeError(text.references.levelCount(rows.length, MAX_LEVELS));
+    throw new RangeError(t("references.levelCount", { count: rows.length, most: MAX_LEVELS }));
   }
   const time_s = rows.map(([time]) => time);
   const levels = rows.map(([, level]) => level);

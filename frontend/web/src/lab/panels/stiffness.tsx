@@ -3,7 +3,7 @@ import { putStiffness } from "../../core/api/client";
 import type { RequestOf, SessionState, StiffnessReference } from "../../core/api/types";
 import { quantityProps } from "../../core/quantities";
 import { currentValueOr } from "../../core/state/conflicts";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { formatInput } from "../../core/units";
 import type { SliderRange } from "../../core/widgets/scale";
 import { Field } from "./field";
@@ -28,9 +28,9 @@ function amplitudesOf({ min, max }: SliderRange): SliderRange {
   return { min: 0, max: most, step: most / AMPLITUDE_STEPS };
 }
 const KINDS = [
-  { value: "constant", label: text.stiffness.constant },
-  { value: "sine", label: text.stiffness.sine },
-  { value: "other", label: text.references.other },
+  { value: "constant", label: t("stiffness.constant") },
+  { value: "sine", label: t("stiffness.sine") },
+  { value: "other", label: t("references.other") },
 ] as const;
 
 function SineFields({ reference, reach }: { reference: Sine; reach: SliderRange }) {
@@ -96,8 +96,10 @@ export function Stiffness({ state }: { state: SessionState }) {
   const only = state.actuator.only_stiffness_nm_per_rad;
   if (only !== null) {
     return (
-      <Group title={text.stiffness.title} topic="stiffness">
-        <p class="hint">{text.stiffness.fixed(state.actuator.title, formatInput(only))}</p>
+      <Group title={t("stiffness.title")} topic="stiffness">
+        <p class="hint">
+          {t("stiffness.fixed", { actuator: state.actuator.title, sigma: formatInput(only) })}
+        </p>
       </Group>
     );
   }

@@ -4,7 +4,7 @@ import type { BenchState, SessionFault, SessionState } from "../../core/api/type
 import { perform } from "../../core/state/actions";
 import { mayCommand } from "../../core/state/control";
 import { isLive, session } from "../../core/state/session";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { Problem } from "../../core/widgets/form";
 import {
   allowedCommands,
@@ -43,9 +43,11 @@ function LatchedBench({ state, bench }: { state: SessionState; bench: BenchState
   const isLost = isLoopLost(bench);
   const isClosed = isNeverOpened(bench);
   const isOfUser = isQuickStop(state);
-  const stopTitle = isOfUser ? text.stop.benchTitle : text.stop.faultTitle;
-  const lostTitle = isClosed ? text.stop.closedTitle : text.stop.lostTitle;
-  const lostSteps = isClosed ? text.stop.closedSteps : text.stop.lostSteps;
+  const stopTitle = isOfUser ? t("stop.benchTitle") : t("stop.faultTitle");
+  const lostTitle = isClosed ? t("stop.closedTitle") : t("stop.lostTitle");
+  const lostSteps = isClosed
+    ? t("stop.closedSteps", { returnObjects: true })
+    : t("stop.lostSteps", { returnObjects: true });
   return (
     <div class="row banner is-stop">
       <span class="banner-sign" aria-hidden="true">
@@ -53,14 +55,14 @@ function LatchedBench({ state, bench }: { state: SessionState; bench: BenchState
       </span>
       <div class="grow">
         <p role="alert">
-          {!isLive.value && `${text.stop.lastKnown} `}
+          {!isLive.value && `${t("stop.lastKnown")} `}
           <strong>{isLost ? lostTitle : stopTitle}</strong> {state.fault?.message}{" "}
-          {!isLost && isLive.value && text.stop.latched}
+          {!isLost && isLive.value && t("stop.latched")}
         </p>
         {/* The steps below say what to do after a quick stop. */}
         {!isLost && !isOfUser && state.fault !== null && <FaultAdvice fault={state.fault} />}
-        <ol class="row bullets" aria-label={text.stop.goOn}>
-          {(isLost ? lostSteps : text.stop.steps).map((step) => (
+        <ol class="row bullets" aria-label={t("stop.goOn")}>
+          {(isLost ? lostSteps : t("stop.steps", { returnObjects: true })).map((step) => (
             <li key={step}>{step}</li>
           ))}
         </ol>
@@ -69,11 +71,11 @@ function LatchedBench({ state, bench }: { state: SessionState; bench: BenchState
       <button
         type="button"
         class="button"
-        title={isLost ? text.bench.restartHint : text.bench.clearHint}
+        title={isLost ? t("bench.restartHint") : t("bench.clearHint")}
         disabled={!mayCommand.value || (isLost && !allowedCommands(bench).restart)}
         onClick={() => void perform("bench.clear", isLost ? restartBench : clearBench)}
       >
-        {isLost ? text.bench.restart : text.bench.clear}
+        {isLost ? t("bench.restart") : t("bench.clear")}
       </button>
     </div>
   );
@@ -86,18 +88,18 @@ export function StopBanners() {
   return (
     <>
       {stage === "unconfirmed" && (
-        <StopNotice title={text.stop.unconfirmedTitle} words={text.stop.unconfirmedText} />
+        <StopNotice title={t("stop.unconfirmedTitle")} words={t("stop.unconfirmedText")} />
       )}
       {stage === "refused" && (
-        <StopNotice title={text.stop.refusedTitle} words={message}>
-          <p>{text.stop.refusedText}</p>
+        <StopNotice title={t("stop.refusedTitle")} words={message}>
+          <p>{t("stop.refusedText")}</p>
         </StopNotice>
       )}
       {state?.bench?.status === "fault" && <LatchedBench state={state} bench={state.bench} />}
       {state !== null && isStoppedSimulation(state) && (
         <StopNotice
-          title={text.stop.simulationTitle}
-          words={text.stop.simulationText}
+          title={t("stop.simulationTitle")}
+          words={t("stop.simulationText")}
           isSimulation
         />
       )}
@@ -110,18 +112,18 @@ export function FaultAdvice({ fault: { advice } }: { fault: SessionFault }) {
   if (advice === null) return null;
   return (
     <details class="fault-advice">
-      <summary>{text.fault.adviceTitle}</summary>
+      <summary>{t("fault.adviceTitle")}</summary>
       {advice}
     </details>
   );
 }
 
 const WORDS: Record<StopStage, string> = {
-  idle: text.stop.button,
-  sending: text.stop.sending,
-  confirmed: text.stop.confirmed,
-  unconfirmed: text.stop.again,
-  refused: text.stop.refused,
+  idle: t("stop.button"),
+  sending: t("stop.sending"),
+  confirmed: t("stop.confirmed"),
+  unconfirmed: t("stop.again"),
+  refused: t("stop.refused"),
 };
 
 /**
@@ -137,13 +139,13 @@ export function StopButton() {
       type="button"
       class={`button rigid stop-button ${isSimulation ? "is-simulation" : "is-bench"}`}
       aria-keyshortcuts="Shift+Escape"
-      title={isSimulation ? text.stop.doesSimulation : text.stop.doesBench}
+      title={isSimulation ? t("stop.doesSimulation") : t("stop.doesBench")}
       onClick={() => void pressStop()}
     >
       <span class="stop-sign" aria-hidden="true" />
       <strong>{WORDS[stage]}</strong>
-      <small>{text.stop.keys}</small>
-      {stage !== "idle" && <span class="visually-hidden">{text.stop.button}</span>}
+      <small>{t("stop.keys")}</small>
+      {stage !== "idle" && <span class="visually-hidden">{t("stop.button")}</span>}
     </button>
   );
 }

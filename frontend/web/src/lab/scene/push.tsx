@@ -2,7 +2,7 @@ import { signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { linkPush } from "../../core/state/push";
 import { samples } from "../../core/state/session";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { formatNumber } from "../../core/units";
 import { Problem } from "../../core/widgets/form";
 import { closeOnEscape } from "../../core/widgets/panel";
@@ -40,7 +40,7 @@ function Band() {
       <line x1={now.from.x} y1={now.from.y} x2={now.x} y2={now.y} />
       <circle cx={now.from.x} cy={now.from.y} r="5" />
       <text x={now.x + 14} y={now.y - 10}>
-        {text.scene.pulling(formatNumber(now.torque, 2, 1))}
+        {t("scene.pulling", { torque: formatNumber(now.torque, 2, 1) })}
       </text>
     </svg>
   );
@@ -101,7 +101,7 @@ export function PushLayer() {
         ref={layer}
         type="button"
         class="fill push-layer"
-        aria-label={text.scene.pushLayer}
+        aria-label={t("scene.pushLayer")}
         onPointerDown={startPull}
         onPointerMove={(event) => {
           const from = pull.peek()?.from;

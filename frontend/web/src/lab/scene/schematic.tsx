@@ -5,10 +5,8 @@ import type { SessionState } from "../../core/api/types";
 import { lineStyleOfLane } from "../../core/plots/linestyles";
 import { alsoDrawn } from "../../core/plots/setups";
 import { receivedCount, samples } from "../../core/state/session";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { toDegrees } from "../../core/units";
-
-const words = text.scene;
 
 /** Front view: at 0 the link hangs straight down, and a positive angle turns it to the right. */
 const turnOf = (rad: number): string => `rotate(${-toDegrees(rad)})`;
@@ -40,7 +38,7 @@ const TORQUES = ["disturbance_link_nm", "disturbance_motor1_nm", "disturbance_mo
 /** A disturbance torque: drawn at the arm of the link, or at the top of a motor. */
 const Torque = ({ of, radius }: { of: (typeof TORQUES)[number]; radius: number }) => (
   <path class="schematic-torque" data-torque={of} data-radius={radius}>
-    <title>{text.channelNames[of]}</title>
+    <title>{t(`channelNames.${of}`)}</title>
   </path>
 );
 
@@ -78,7 +76,7 @@ export function Schematic({ state }: { state: SessionState }) {
   const isHung = state.loads.some(({ active, load }) => active && load.kind === "mass");
   return (
     <figure class="schematic">
-      <svg ref={picture} viewBox="-120 -120 240 240" role="img" aria-label={words.schematic}>
+      <svg ref={picture} viewBox="-120 -120 240 240" role="img" aria-label={t("scene.schematic")}>
         <circle class="schematic-body" r="46" />
         <g data-channel="position_reference_rad" data-lane="1">
           <path class="schematic-reference" d="M0 46V104" />
@@ -105,7 +103,7 @@ export function Schematic({ state }: { state: SessionState }) {
         <Torque of="disturbance_motor2_nm" radius={32} />
         <circle class="schematic-axis" r="6" />
       </svg>
-      <figcaption class="hint">{words.noWebGl}</figcaption>
+      <figcaption class="hint">{t("scene.noWebGl")}</figcaption>
     </figure>
   );
 }

@@ -1,11 +1,9 @@
 import { isArm } from "../../core/state/arm";
 import { session } from "../../core/state/session";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { cameraNames } from "./cameras";
 import { isPushing, PushLayer } from "./push";
 import { areNamesOn, isLow, sceneKind, setCamera, toggleLow, toggleNames } from "./viewer";
-
-const words = text.scene;
 
 /** The tip of an arm is pushed in the picture of its plane. */
 function PushButton() {
@@ -15,7 +13,7 @@ function PushButton() {
       type="button"
       class="button is-small tool"
       aria-pressed={isPushing.value}
-      title={words.pushHint}
+      title={t("scene.pushHint")}
       onClick={() => {
         isPushing.value = !isPushing.peek();
       }}
@@ -23,7 +21,7 @@ function PushButton() {
       <svg viewBox="0 0 12 12" aria-hidden="true">
         <path d="M3.4 6.2V2.3a.8.8 0 0 1 1.6 0v2.6-3.6a.8.8 0 0 1 1.6 0v3.6-2.8a.8.8 0 0 1 1.6 0v3-1.6a.8.8 0 0 1 1.6 0v4.2c0 2.4-1.4 3.8-3.5 3.8-1.7 0-2.6-.8-3.4-2.3L1.4 7.1c-.5-1 .8-1.7 1.4-.9z" />
       </svg>
-      {words.push}
+      {t("scene.push")}
     </button>
   );
 }
@@ -36,9 +34,9 @@ function NamesButton() {
       type="button"
       class="button is-small tool is-icon"
       aria-pressed={areNamesOn.value}
-      aria-label={words.names}
+      aria-label={t("scene.names")}
       aria-keyshortcuts="N"
-      title={`${words.names} (N): ${words.namesHint}`}
+      title={`${t("scene.names")} (N): ${t("scene.namesHint")}`}
       onClick={toggleNames}
     >
       <svg viewBox="0 0 12 12" aria-hidden="true">
@@ -55,16 +53,21 @@ export function SceneTools({ isBasic }: { isBasic: boolean }) {
   return (
     <>
       {isPushing.value && <PushLayer />}
-      <div class="line tight scene-tools" data-over-picture role="toolbar" aria-label={words.tools}>
+      <div
+        class="line tight scene-tools"
+        data-over-picture
+        role="toolbar"
+        aria-label={t("scene.tools")}
+      >
         {cameraNames(sceneKind()).map((name) => (
           <button
             key={name}
             type="button"
             class="button is-small tool"
-            aria-label={words.cameraHint(words.cameras[name])}
+            aria-label={t("scene.cameraHint", { name: t(`scene.cameras.${name}`) })}
             onClick={() => setCamera(name)}
           >
-            {words.cameras[name]}
+            {t(`scene.cameras.${name}`)}
           </button>
         ))}
         <span class="line tight end">
@@ -74,8 +77,8 @@ export function SceneTools({ isBasic }: { isBasic: boolean }) {
             type="button"
             class="button is-small tool is-icon"
             aria-pressed={isLow.value}
-            aria-label={words.low}
-            title={`${words.low}: ${words.lowHint}`}
+            aria-label={t("scene.low")}
+            title={`${t("scene.low")}: ${t("scene.lowHint")}`}
             onClick={toggleLow}
           >
             <svg viewBox="0 0 12 12" aria-hidden="true">

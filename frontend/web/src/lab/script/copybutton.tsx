@@ -1,6 +1,6 @@
 import type { ComponentChildren } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 
 interface CopyButtonProps {
   /** The text to copy; null if it could not be made, which is reported elsewhere. */
@@ -22,7 +22,7 @@ export function CopyButton({ read, label, hint, disabled, children, ...rest }: C
   const copy = async () => {
     const content = await read();
     if (content === null) return;
-    setMessage((await copyText(content)) ? text.script.copied : text.script.notCopied);
+    setMessage((await copyText(content)) ? t("script.copied") : t("script.notCopied"));
     clearTimeout(timer.current);
     timer.current = window.setTimeout(() => setMessage(""), SHOWN_MS);
   };

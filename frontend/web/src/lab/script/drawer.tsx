@@ -2,15 +2,14 @@ import { signal } from "@preact/signals";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { type Call, calls, clearCalls } from "../../core/api/calls";
 import { API } from "../../core/api/request";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { formatTime } from "../../core/units";
 import { Choice, ErrorLine } from "../../core/widgets/form";
 import { CopyButton, saveText } from "./copybutton";
 import { makeExperimentScript, scriptProblem } from "./repeat";
 import { LANGUAGES, type Language, toSnippet, toSnippets } from "./snippets";
 
-const words = text.script;
-const OPTIONS = LANGUAGES.map((value) => ({ value, label: words.languages[value] }));
+const OPTIONS = LANGUAGES.map((value) => ({ value, label: t(`script.languages.${value}`) }));
 
 const isDrawerOpen = signal(false);
 
@@ -19,9 +18,9 @@ export function toggleDrawer(): void {
 }
 
 function outcome({ status, timeS }: Call): string {
-  if (status === null) return words.unreached;
-  if (status >= 400) return words.refused(status);
-  return timeS === null ? "" : words.at(formatTime(timeS));
+  if (status === null) return t("script.unreached");
+  if (status >= 400) return t("script.refused", { status });
+  return timeS === null ? "" : t("script.at", { time: formatTime(timeS) });
 }
 
 function CallRow({ call, language }: { call: Call; language: Language }) {
@@ -37,9 +36,9 @@ function CallRow({ call, language }: { call: Call; language: Language }) {
       <CopyButton
         class="quiet"
         read={() => snippet}
-        label={words.copyOne(`${call.method.toUpperCase()} ${call.path}`)}
+        label={t("script.copyOne", { what: `${call.method.toUpperCase()} ${call.path}` })}
       >
-        {words.copy}
+        {t("script.copy")}
       </CopyButton>
     </li>
   );
@@ -53,12 +52,12 @@ function CallList({ language }: { language: Language }) {
   useEffect(() => {
     if (list.current && isAtEnd.current) list.current.scrollTop = list.current.scrollHeight;
   });
-  if (all.length === 0) return <p class="hint">{words.empty}</p>;
+  if (all.length === 0) return <p class="hint">{t("script.empty")}</p>;
   return (
     <ol
       ref={list}
       class="calls"
-      aria-label={words.list}
+      aria-label={t("script.list")}
       // biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls is reached by key
       tabIndex={0}
       onScroll={({ currentTarget: { scrollTop, scrollHeight, clientHeight } }) => {
@@ -74,7 +73,7 @@ function CallList({ language }: { language: Language }) {
 
 async function saveExperiment(): Promise<void> {
   const script = await makeExperimentScript();
-  if (script !== null) saveText(script, words.fileName);
+  if (script !== null) saveText(script, t("script.fileName"));
 }
 
 /** The calls of this page as code, in a drawer below the lab. */
@@ -83,11 +82,11 @@ export function CallsDrawer() {
   if (!isDrawerOpen.value) return null;
   const isEmpty = calls.value.length === 0;
   return (
-    <section class="column joined rigid drawer" aria-label={words.title}>
+    <section class="column joined rigid drawer" aria-label={t("script.title")}>
       <div class="row drawer-head">
-        <h2>{words.title}</h2>
+        <h2>{t("script.title")}</h2>
         <Choice
-          label={words.language}
+          label={t("script.language")}
           options={OPTIONS}
           value={language}
           onChoose={(value) => setLanguage(value)}
@@ -97,17 +96,17 @@ export function CallsDrawer() {
           disabled={isEmpty}
           read={() => toSnippets(calls.peek(), language, API)}
         >
-          {words.copyAll}
+          {t("script.copyAll")}
         </CopyButton>
         <button type="button" class="quiet" disabled={isEmpty} onClick={clearCalls}>
-          {words.clear}
+          {t("script.clear")}
         </button>
         <span class="grow" />
         <ExperimentButtons />
         <button
           type="button"
           class="button is-icon"
-          aria-label={words.close}
+          aria-label={t("script.close")}
           onClick={toggleDrawer}
         >
           <span aria-hidden="true">✕</span>
@@ -123,16 +122,20 @@ export function CallsDrawer() {
 function ExperimentButtons() {
   return (
     <>
-      <CopyButton class="button is-primary" hint={words.experimentHint} read={makeExperimentScript}>
-        {words.experiment}
+      <CopyButton
+        class="button is-primary"
+        hint={t("script.experimentHint")}
+        read={makeExperimentScript}
+      >
+        {t("script.experiment")}
       </CopyButton>
       <button
         type="button"
         class="button"
-        title={words.saveHint}
+        title={t("script.saveHint")}
         onClick={() => void saveExperiment()}
       >
-        {words.save}
+        {t("script.save")}
       </button>
     </>
   );
@@ -143,10 +146,10 @@ export function CallsButton() {
     <button
       type="button"
       class="button is-icon"
-      aria-label={words.open}
+      aria-label={t("script.open")}
       aria-expanded={isDrawerOpen.value}
       aria-keyshortcuts="p"
-      title={words.openHint}
+      title={t("script.openHint")}
       onClick={toggleDrawer}
     >
       <svg viewBox="0 0 16 16" aria-hidden="true">

@@ -7,7 +7,7 @@ import { readOrigin, readRunOrigin } from "../../core/api/runs";
 import type { RunOrigin } from "../../core/api/types";
 import { controllerNames } from "../../core/state/lanes";
 import { phase } from "../../core/state/session";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { writeExperiment } from "./experiment";
 
 /** Why the last script could not be made. */
@@ -24,13 +24,16 @@ async function write(read: () => Promise<RunOrigin>, title: string): Promise<str
   } catch (error) {
     if (error instanceof LockedError) phase.value = "locked";
     scriptProblem.value =
-      error instanceof RefusedError ? error.message : text.connection.unreachable;
+      error instanceof RefusedError ? error.message : t("connection.unreachable");
   }
   return null;
 }
 
 export const makeExperimentScript = (): Promise<string | null> =>
-  write(readOrigin, text.script.experimentTitle(text.compare.versus(controllerNames.peek())));
+  write(
+    readOrigin,
+    t("script.experimentTitle", { laws: controllerNames.peek().join(t("compare.versus")) }),
+  );
 
 export const makeRunScript = (run: string, name: string): Promise<string | null> =>
   write(() => readRunOrigin(run), name);

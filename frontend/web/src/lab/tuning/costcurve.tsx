@@ -1,10 +1,8 @@
 import type { Candidate } from "../../core/api/jobs";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { formatNumber } from "../../core/units";
 import { Curves } from "../design/curves";
 import { bestSoFar } from "./tuning";
-
-const words = text.tuning;
 
 /** The best cost over the candidates, with the cost of each. */
 export function CostCurve({
@@ -22,22 +20,22 @@ export function CostCurve({
   return (
     <div>
       <Curves
-        title={words.curve}
-        summary={words.curveSummary(
-          formatNumber(first.cost),
-          formatNumber(last),
-          candidates.length - 1,
-        )}
-        x={{ limits: [0, budget], label: words.candidates }}
-        y={{ limits, label: words.costAxis }}
+        title={t("tuning.curve")}
+        summary={t("tuning.curveSummary", {
+          tried: candidates.length - 1,
+          first: formatNumber(first.cost),
+          best: formatNumber(last),
+        })}
+        x={{ limits: [0, budget], label: t("tuning.candidates") }}
+        y={{ limits, label: t("tuning.costAxis") }}
         curves={[
           { look: "each", points: candidates.map(({ number, cost }) => [number, cost] as const) },
           { look: "tried", points: best },
         ]}
       />
       <p class="row small responses-legend">
-        <span>{words.best}</span>
-        <span class="is-each">{words.each}</span>
+        <span>{t("tuning.best")}</span>
+        <span class="is-each">{t("tuning.each")}</span>
       </p>
     </div>
   );

@@ -2,7 +2,7 @@ import { useEffect, useState } from "preact/hooks";
 import { tunedFileOf } from "../../core/api/jobs";
 import { titleOf, usableLaws } from "../../core/state/laws";
 import { isLive, session } from "../../core/state/session";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { ErrorLine, Problem, SelectField } from "../../core/widgets/form";
 import { NumberField } from "../../core/widgets/numberinput";
 import { Panel } from "../../core/widgets/panel";
@@ -22,7 +22,6 @@ import {
   tuning,
 } from "./tuning";
 
-const words = text.tuning;
 const BUDGET = 128;
 const MAX_BUDGET = 2000;
 
@@ -43,7 +42,7 @@ function Choice() {
       }}
     >
       <SelectField
-        label={words.law}
+        label={t("tuning.law")}
         value={law}
         options={usableLaws.value.map(({ name }) => name)}
         name={titleOf}
@@ -51,8 +50,8 @@ function Choice() {
         onChoose={setLaw}
       />
       <NumberField
-        label={words.budget}
-        title={words.budgetHint}
+        label={t("tuning.budget")}
+        title={t("tuning.budgetHint")}
         isInteger
         min={1}
         max={MAX_BUDGET}
@@ -61,8 +60,13 @@ function Choice() {
         onInput={setBudget}
       />
       {isTuning.value ? (
-        <button type="button" class="button" title={words.stopHint} onClick={() => void stop()}>
-          {words.stop}
+        <button
+          type="button"
+          class="button"
+          title={t("tuning.stopHint")}
+          onClick={() => void stop()}
+        >
+          {t("tuning.stop")}
         </button>
       ) : (
         <button
@@ -70,7 +74,7 @@ function Choice() {
           class="button is-primary"
           disabled={law === "" || isBusy.value !== ""}
         >
-          {words.start}
+          {t("tuning.start")}
         </button>
       )}
     </form>
@@ -88,20 +92,28 @@ function TuningResult() {
     <>
       <div>
         <p class="hint" role="status">
-          {words.progress(titleOf(state.law), state.tried, state.budget)}.{" "}
-          {words.status[state.status]}
+          {t("tuning.progress", {
+            law: titleOf(state.law),
+            tried: Math.max(0, state.tried - 1),
+            budget: state.budget,
+          })}
+          . {t(`tuning.status.${state.status}`)}
           {state.problem && ` ${state.problem}`}
         </p>
         {isTuning.value && (
           <progress
             max={state.budget + 1}
             value={state.tried}
-            aria-label={words.progress(titleOf(state.law), state.tried, state.budget)}
+            aria-label={t("tuning.progress", {
+              law: titleOf(state.law),
+              tried: Math.max(0, state.tried - 1),
+              budget: state.budget,
+            })}
           />
         )}
       </div>
       {present === null || best === null ? (
-        isTuning.value && <p class="hint">{words.first}</p>
+        isTuning.value && <p class="hint">{t("tuning.first")}</p>
       ) : (
         <div class="halves">
           <CostCurve candidates={candidates.value} budget={state.budget} />
@@ -114,23 +126,23 @@ function TuningResult() {
           type="button"
           class="button is-primary"
           disabled={!isBetter || !isLive.value}
-          title={words.useHint}
+          title={t("tuning.useHint")}
           onClick={() => void applyBest().then((isDone) => setUsed(isDone ? mark : ""))}
         >
-          {words.use}
+          {t("tuning.use")}
         </button>
         {!isTuning.value && best !== null && (
-          <a class="button" href={tunedFileOf(state.id)} download title={words.saveHint}>
-            {words.save}
+          <a class="button" href={tunedFileOf(state.id)} download title={t("tuning.saveHint")}>
+            {t("tuning.save")}
           </a>
         )}
         <Problem control={CONTROL} />
         <span class="hint" role="status">
-          {used === mark && words.used}
+          {used === mark && t("tuning.used")}
           {used === mark &&
             session.value?.configuration.law !== state.law &&
-            ` ${words.otherLaw(titleOf(state.law))}`}
-          {used !== mark && !isTuning.value && best !== null && !isBetter && words.notBetter}
+            ` ${t("tuning.otherLaw", { law: titleOf(state.law) })}`}
+          {used !== mark && !isTuning.value && best !== null && !isBetter && t("tuning.notBetter")}
         </span>
       </div>
     </>
@@ -145,13 +157,13 @@ export function TunePanel() {
 function Tune() {
   useEffect(() => void findNewest(), []);
   return (
-    <Panel title={words.title} class="is-wide tuning" onClose={close}>
+    <Panel title={t("tuning.title")} class="is-wide tuning" onClose={close}>
       <div class="stack">
-        <p class="hint">{words.about}</p>
+        <p class="hint">{t("tuning.about")}</p>
         <Choice />
         <ErrorLine>{problem.value}</ErrorLine>
         <TuningResult />
-        <p class="hint">{words.cost}</p>
+        <p class="hint">{t("tuning.cost")}</p>
       </div>
     </Panel>
   );

@@ -1,10 +1,8 @@
 import type { Candidate, Tuning } from "../../core/api/jobs";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { formatInput, formatNumber } from "../../core/units";
 import { MathSymbol } from "../../core/widgets/symbol";
 import { Table } from "../../core/widgets/tables";
-
-const words = text.tuning;
 
 interface FoundProps {
   tuning: Tuning;
@@ -16,9 +14,9 @@ interface FoundProps {
 export function ValueTable({ tuning, present, best }: FoundProps) {
   return (
     <Table
-      label={words.values}
+      label={t("tuning.values")}
       look="metrics"
-      heads={[words.parameter, words.before, words.tuned, words.range]}
+      heads={[t("tuning.parameter"), t("tuning.before"), t("tuning.tuned"), t("tuning.range")]}
     >
       {tuning.axes.map((axis, index) => (
         <tr key={axis.name}>
@@ -43,22 +41,26 @@ const write = (value: number | null): string => (value === null ? "–" : format
 export function ResultTable({ tuning, present, best }: FoundProps) {
   const before = tuning.finals.find(({ number }) => number === present.number) ?? present;
   const rows = [
-    { name: words.before, result: before },
-    { name: words.tuned, result: best },
+    { name: t("tuning.before"), result: before },
+    { name: t("tuning.tuned"), result: best },
   ];
   return (
     <div class="wide">
       <Table
-        label={words.results}
+        label={t("tuning.results")}
         look="metrics"
-        caption={tuning.finals.length > 0 ? words.onValidation : words.onTraining}
-        heads={words.resultHeads}
+        caption={tuning.finals.length > 0 ? t("tuning.onValidation") : t("tuning.onTraining")}
+        heads={t("tuning.resultHeads", { returnObjects: true })}
       >
         {rows.map(({ name, result }) => (
           <tr key={name}>
             <th scope="row">{name}</th>
             <td class="strong">{formatNumber(result.cost)}</td>
-            <td>{result.trials === 0 ? words.tooNoisy : words.held(result.held, result.trials)}</td>
+            <td>
+              {result.trials === 0
+                ? t("tuning.tooNoisy")
+                : t("tuning.held", { held: result.held, trials: result.trials })}
+            </td>
             <td>{write(result.position_error_deg)}</td>
             <td>{write(result.stiffness_error_percent)}</td>
             <td>{write(result.torque_variation_nm_per_s)}</td>
@@ -66,7 +68,9 @@ export function ResultTable({ tuning, present, best }: FoundProps) {
         ))}
       </Table>
       {tuning.noise_limit_nm_per_s !== null && (
-        <p class="hint">{words.noiseLimit(formatNumber(tuning.noise_limit_nm_per_s))}</p>
+        <p class="hint">
+          {t("tuning.noiseLimit", { limit: formatNumber(tuning.noise_limit_nm_per_s) })}
+        </p>
       )}
     </div>
   );

@@ -2,7 +2,7 @@ import { useEffect, useState } from "preact/hooks";
 import { logDownload } from "../../core/api/calls";
 import { addressOf, branchRun, exportPath } from "../../core/api/runs";
 import type { ExportName, RunDetails } from "../../core/api/types";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { ErrorLine } from "../../core/widgets/form";
 import { Popup } from "../../core/widgets/popup";
 import { CopyButton } from "../../lab/script/copybutton";
@@ -10,8 +10,6 @@ import { makeRunScript, scriptProblem } from "../../lab/script/repeat";
 import { moveToTrash } from "./list";
 import { goTo, linkTo } from "./place";
 import { attempt, exportFile, fileExport } from "./problem";
-
-const words = text.run;
 
 const KINDS: readonly (ExportName | "html")[] = ["csv", "parquet", "mat", "mcap", "html"];
 
@@ -22,7 +20,7 @@ const tickAt = (run: RunDetails, moment: number): number =>
 function Branch({ run, moment }: { run: RunDetails; moment: number }) {
   const [isBusy, setBusy] = useState(false);
   if (run.plant !== "simulated") {
-    return <span class="hint">{words.branchBench}</span>;
+    return <span class="hint">{t("run.branchBench")}</span>;
   }
   const branch = async () => {
     setBusy(true);
@@ -34,11 +32,13 @@ function Branch({ run, moment }: { run: RunDetails; moment: number }) {
     <button
       type="button"
       class="button is-primary"
-      title={words.branchHint}
+      title={t("run.branchHint")}
       disabled={isBusy}
       onClick={() => void branch()}
     >
-      {isBusy ? words.branching : words.branch(text.runs.seconds(Number(moment.toFixed(2))))}
+      {isBusy
+        ? t("run.branching")
+        : t("run.branch", { time: t("runs.seconds", { seconds: Number(moment.toFixed(2)) }) })}
     </button>
   );
 }
@@ -60,11 +60,11 @@ function MakingNote({ run }: { run: RunDetails }) {
       aria-busy={stage === "making"}
     >
       <span role="status">
-        {stage === "making" && words.making}
-        {stage === "saved" && words.made}
-        {stage === "failed" && words.notMade(now?.message ?? "")}
+        {stage === "making" && t("run.making")}
+        {stage === "saved" && t("run.made")}
+        {stage === "failed" && t("run.notMade", { why: now?.message ?? "" })}
       </span>
-      {stage === "making" && <span aria-live="off"> {words.makingFor(seconds)}</span>}
+      {stage === "making" && <span aria-live="off"> {t("run.makingFor", { seconds })}</span>}
     </span>
   );
 }
@@ -72,7 +72,7 @@ function MakingNote({ run }: { run: RunDetails }) {
 function Exports({ run }: { run: RunDetails }) {
   const isMaking = fileExport.value?.stage === "making";
   return (
-    <Popup class="button run-exports" title={words.downloadHint} button={words.download}>
+    <Popup class="button run-exports" title={t("run.downloadHint")} button={t("run.download")}>
       {(close) => (
         <ul class="menu exports">
           {KINDS.map((kind) => {
@@ -89,8 +89,8 @@ function Exports({ run }: { run: RunDetails }) {
                       void exportFile(run.id, path);
                     }}
                   >
-                    <strong>{words.kinds[kind].name}</strong>{" "}
-                    <small>{words.kinds[kind].does}</small>
+                    <strong>{t(`run.kinds.${kind}.name`)}</strong>{" "}
+                    <small>{t(`run.kinds.${kind}.does`)}</small>
                   </button>
                 </li>
               );
@@ -105,7 +105,8 @@ function Exports({ run }: { run: RunDetails }) {
                     close();
                   }}
                 >
-                  <strong>{words.kinds[kind].name}</strong> <small>{words.kinds[kind].does}</small>
+                  <strong>{t(`run.kinds.${kind}.name`)}</strong>{" "}
+                  <small>{t(`run.kinds.${kind}.does`)}</small>
                 </a>
               </li>
             );
@@ -126,15 +127,15 @@ export function RunActions({ run, moment }: { run: RunDetails; moment: number })
   return (
     <div class="row tabular">
       <Branch run={run} moment={moment} />
-      <CopyButton read={link} hint={words.linkHint}>
-        {words.link}
+      <CopyButton read={link} hint={t("run.linkHint")}>
+        {t("run.link")}
       </CopyButton>
-      <CopyButton read={() => makeRunScript(run.id, run.title)} hint={words.scriptHint}>
-        {words.script}
+      <CopyButton read={() => makeRunScript(run.id, run.title)} hint={t("run.scriptHint")}>
+        {t("run.script")}
       </CopyButton>
       <Exports run={run} />
       <button type="button" class="button" onClick={() => void remove()}>
-        {text.runs.remove}
+        {t("runs.remove")}
       </button>
       <MakingNote run={run} />
       <ErrorLine>{scriptProblem.value}</ErrorLine>

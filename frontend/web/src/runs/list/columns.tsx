@@ -1,13 +1,12 @@
 /** The columns of the table of runs: labels, sorting, cells. */
 import type { ComponentChildren } from "preact";
 import type { RunSummary } from "../../core/api/types";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { formatError, formatNumber, toDegrees } from "../../core/units";
 import { Highlighted } from "./highlight";
 import { describeMeasured, explainSteadyState, shiftToRecordTime } from "./measured";
 import { formatDuration, formatMoment, formatMomentShort } from "./words";
 
-const words = text.runs;
 /** Separates successive laws of a lane. */
 const CHANGED = "→";
 
@@ -97,7 +96,7 @@ export const COLUMNS: readonly Column[] = [
   {
     key: "figure",
     width: "clamp(78px, 12vw - 75px, 96px)",
-    name: words.columns.figure,
+    name: t("runs.columns.figure"),
     sort: "figure",
     isInName: true,
     show: (run) => <Highlighted>{figureOf(run)}</Highlighted>,
@@ -106,7 +105,7 @@ export const COLUMNS: readonly Column[] = [
   {
     key: "laws",
     width: "118px",
-    name: words.columns.law,
+    name: t("runs.columns.law"),
     sort: "laws",
     isInName: true,
     ...setting(({ laws }) => laws),
@@ -114,9 +113,9 @@ export const COLUMNS: readonly Column[] = [
   {
     key: "stiffness",
     width: "clamp(62px, 12vw - 92px, 78px)",
-    name: words.columns.stiffness,
-    hint: words.columns.stiffnessHint,
-    label: words.columns.stiffness,
+    name: t("runs.columns.stiffness"),
+    hint: t("runs.columns.stiffnessHint"),
+    label: t("runs.columns.stiffness"),
     sort: "stiffness_nm_per_rad",
     isInName: true,
     ...setting(({ stiffness }) => stiffness),
@@ -124,7 +123,7 @@ export const COLUMNS: readonly Column[] = [
   {
     key: "load",
     width: "clamp(82px, 20vw - 174px, 112px)",
-    name: words.columns.load,
+    name: t("runs.columns.load"),
     sort: "load",
     isInName: true,
     ...setting(({ load }) => load),
@@ -132,30 +131,32 @@ export const COLUMNS: readonly Column[] = [
   {
     key: "effects",
     width: "84px",
-    name: words.columns.effects,
-    hint: words.columns.effectsHint,
+    name: t("runs.columns.effects"),
+    hint: t("runs.columns.effectsHint"),
     sort: "effects",
     isInName: true,
-    ...setting(({ effects, own }) => [effects, own && words.own(own)].filter(Boolean).join(", ")),
+    ...setting(({ effects, own }) =>
+      [effects, own && t("runs.own", { what: own })].filter(Boolean).join(", "),
+    ),
   },
   {
     key: "window",
     width: "clamp(178px, 12vw + 24px, 194px)",
-    name: words.columns.window,
-    hint: words.columns.windowHint,
+    name: t("runs.columns.window"),
+    hint: t("runs.columns.windowHint"),
     show: windowOf,
     hintOf: (run) => windowOf(run) ?? undefined,
   },
   measureOf("peak", "peak_position_error_rad", {
-    name: words.columns.peak,
-    hint: words.columns.peakHint,
-    label: words.peak,
+    name: t("runs.columns.peak"),
+    hint: t("runs.columns.peakHint"),
+    label: t("runs.peak"),
   }),
   {
     ...measureOf("settled", "steady_state_position_error_rad", {
-      name: words.columns.settled,
-      hint: words.columns.steadyStateHint,
-      label: words.settled,
+      name: t("runs.columns.settled"),
+      hint: t("runs.columns.steadyStateHint"),
+      label: t("runs.settled"),
     }),
     // Both values of two lanes.
     width: "clamp(108px, 20vw - 148px, 140px)",
@@ -165,14 +166,14 @@ export const COLUMNS: readonly Column[] = [
         : `${describeDegrees(run, "steady_state_position_error_rad")}: ${explainSteadyState(run.window)}`,
   },
   measureOf("rms", "rms_position_error_rad", {
-    name: words.columns.rms,
-    hint: words.columns.rmsHint,
-    label: words.rms,
+    name: t("runs.columns.rms"),
+    hint: t("runs.columns.rmsHint"),
+    label: t("runs.rms"),
   }),
   {
     key: "duration",
     width: "74px",
-    name: words.columns.duration,
+    name: t("runs.columns.duration"),
     sort: "duration_s",
     isDownFirst: true,
     isNumber: true,
@@ -181,7 +182,7 @@ export const COLUMNS: readonly Column[] = [
   {
     key: "created",
     width: "112px",
-    name: words.columns.created,
+    name: t("runs.columns.created"),
     sort: "created",
     isDownFirst: true,
     isNumber: true,

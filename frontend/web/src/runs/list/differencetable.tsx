@@ -1,8 +1,7 @@
 import type { RunDifference } from "../../core/api/types";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { formatInput, toDegrees } from "../../core/units";
 
-const words = text.difference;
 type Row = RunDifference["differences"][number];
 
 function Group({ name, rows }: { name: string; rows: readonly Row[] }) {
@@ -33,15 +32,15 @@ function Group({ name, rows }: { name: string; rows: readonly Row[] }) {
 /** Only the settings that differ between these runs. */
 export function DifferenceTable({ difference }: { difference: RunDifference }) {
   const { differences, titles } = difference;
-  if (differences.length === 0) return <p class="muted">{words.none}</p>;
+  if (differences.length === 0) return <p class="muted">{t("difference.none")}</p>;
   const groups = [...new Set(differences.map(({ group }) => group))];
   return (
     // biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls is reached by keyboard
-    <section class="scroll overlay-table" tabIndex={0} aria-label={words.title}>
+    <section class="scroll overlay-table" tabIndex={0} aria-label={t("difference.title")}>
       <table class="metrics difference">
         <caption>
           <span>
-            {words.title} <small class="unit">{words.hint}</small>
+            {t("difference.title")} <small class="unit">{t("difference.hint")}</small>
           </span>
         </caption>
         <thead>
@@ -69,7 +68,7 @@ export function formatSetting({ unit, values }: Row): { unit: string; values: st
   const shown = IN_DEGREES[unit];
   const format = (value: Row["values"][number]): string => {
     if (value === null) return NONE;
-    if (typeof value === "boolean") return value ? text.difference.yes : text.difference.no;
+    if (typeof value === "boolean") return value ? t("difference.yes") : t("difference.no");
     if (typeof value === "string") return value;
     return formatInput(shown === undefined ? value : toDegrees(value), 6).replace("-", "−");
   };

@@ -1,9 +1,7 @@
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { COLUMNS, NAME_SORT } from "./columns";
 import { changeQuery, FILTERS, type Filter, filters, isTrash, runList, search, sort } from "./list";
 import { nameValue } from "./words";
-
-const words = text.runs;
 
 /** A filter by a value of the runs; nothing if there is only one value. */
 function FilterChoice({ filter }: { filter: Filter }) {
@@ -16,18 +14,20 @@ function FilterChoice({ filter }: { filter: Filter }) {
     : [...counts, [value, 0] as const];
   return (
     <label>
-      <span class="visually-hidden">{words.filters[filter].name}</span>
+      <span class="visually-hidden">{t(`runs.filters.${filter}.name`)}</span>
       <select
         value={value}
         class={value === "" ? "" : "is-chosen"}
         onChange={(event) => changeQuery({ filters: { [filter]: event.currentTarget.value } })}
       >
-        <option value="">{words.filters[filter].any}</option>
+        <option value="">{t(`runs.filters.${filter}.any`)}</option>
         {options
           .filter(([name]) => name !== "")
           .map(([name, count]) => (
             <option key={name} value={name}>
-              {isAlone ? words.counted(nameValue(filter, name), count) : nameValue(filter, name)}
+              {isAlone
+                ? t("runs.counted", { name: nameValue(filter, name), count })
+                : nameValue(filter, name)}
             </option>
           ))}
       </select>
@@ -37,12 +37,12 @@ function FilterChoice({ filter }: { filter: Filter }) {
 
 /** The sort order, for windows in which the table has no header. */
 function SortChoice() {
-  const columns = [{ name: words.columns.name, sort: NAME_SORT }, ...COLUMNS].filter(
+  const columns = [{ name: t("runs.columns.name"), sort: NAME_SORT }, ...COLUMNS].filter(
     ({ sort: order }) => order !== undefined,
   );
   return (
     <label class="runs-sort">
-      <span class="visually-hidden">{words.sort}</span>
+      <span class="visually-hidden">{t("runs.sort")}</span>
       <select
         value={sort.value}
         onChange={(event) => changeQuery({ sort: event.currentTarget.value })}
@@ -50,10 +50,10 @@ function SortChoice() {
         {columns.map((column) => (
           <>
             <option key={column.sort} value={column.sort}>
-              {words.sortUp(column.name)}
+              {t("runs.sortUp", { column: column.name })}
             </option>
             <option key={`-${column.sort}`} value={`-${column.sort}`}>
-              {words.sortDown(column.name)}
+              {t("runs.sortDown", { column: column.name })}
             </option>
           </>
         ))}
@@ -66,12 +66,12 @@ export function Finder() {
   return (
     <search class="line grow runs-finder">
       <label class="runs-search">
-        <span class="visually-hidden">{words.search}</span>
+        <span class="visually-hidden">{t("runs.search")}</span>
         <input
           type="search"
           maxLength={200}
-          placeholder={words.searchHint}
-          title={words.searchDoes}
+          placeholder={t("runs.searchHint")}
+          title={t("runs.searchDoes")}
           value={search.value}
           onInput={(event) => changeQuery({ search: event.currentTarget.value })}
         />
@@ -84,10 +84,10 @@ export function Finder() {
         type="button"
         class="button"
         aria-pressed={isTrash.value}
-        title={words.trashHint}
+        title={t("runs.trashHint")}
         onClick={() => changeQuery({ isTrash: !isTrash.peek() })}
       >
-        {words.trash}
+        {t("runs.trash")}
       </button>
     </search>
   );

@@ -1,6 +1,6 @@
 import { useEffect } from "preact/hooks";
 import type { RunList } from "../../core/api/types";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { Pager } from "../../core/widgets/tables";
 import { Finder } from "./finder";
 import {
@@ -17,7 +17,6 @@ import {
 import { goTo, PlaceLink } from "./place";
 import { RunTable } from "./table";
 
-const words = text.runs;
 const RECORDING_MS = 3000;
 
 function Overlayer() {
@@ -32,30 +31,30 @@ function Overlayer() {
             selectedRuns.value = [];
           }}
         >
-          {words.clear}
+          {t("runs.clear")}
         </button>
       )}
       <button
         type="button"
         class="button is-primary"
         disabled={count < 2}
-        title={words.overlayHint}
+        title={t("runs.overlayHint")}
         onClick={() => goTo({ kind: "overlay", runs: selectedRuns.peek() })}
       >
-        {words.overlay(count)}
+        {count < 2 ? t("runs.overlayRuns") : t("runs.overlay", { selected: count })}
       </button>
     </div>
   );
 }
 
 function Empty() {
-  if (isTrash.value && !isFiltered.value) return <p class="empty">{words.emptyTrash}</p>;
+  if (isTrash.value && !isFiltered.value) return <p class="empty">{t("runs.emptyTrash")}</p>;
   if (isFiltered.value) {
     return (
       <div class="empty">
-        <p translate>{words.nothing}</p>
+        <p translate>{t("runs.nothing")}</p>
         <button type="button" class="button" onClick={showAll}>
-          {words.showAll}
+          {t("runs.showAll")}
         </button>
       </div>
     );
@@ -65,10 +64,10 @@ function Empty() {
       <svg viewBox="0 0 200 44" aria-hidden="true">
         <path d="M0 30h70c6 0 6-26 12-26s5 30 12 30 5-6 12-4h94" />
       </svg>
-      <h3>{words.emptyTitle}</h3>
-      <p translate>{words.emptyText}</p>
+      <h3>{t("runs.emptyTitle")}</h3>
+      <p translate>{t("runs.emptyText")}</p>
       <PlaceLink to={{ kind: "lab" }} class="button is-primary">
-        {words.openLab}
+        {t("runs.openLab")}
       </PlaceLink>
     </div>
   );
@@ -79,16 +78,16 @@ function Pages({ total }: { total: number }) {
   const first = (page - 1) * PAGE_SIZE + 1;
   return (
     <Pager
-      label={words.pages}
+      label={t("runs.pages")}
       page={page}
       pages={Math.ceil(total / PAGE_SIZE)}
-      back={words.pageBefore}
-      on={words.pageAfter}
+      back={t("runs.pageBefore")}
+      on={t("runs.pageAfter")}
       onTurn={(to) => {
         pageNumber.value = to;
       }}
     >
-      {words.shown(first, Math.min(first + PAGE_SIZE - 1, total), total)}
+      {t("runs.shown", { first, last: Math.min(first + PAGE_SIZE - 1, total), total })}
     </Pager>
   );
 }
@@ -97,8 +96,10 @@ function Indexing({ progress }: { progress: NonNullable<RunList["indexing"]> }) 
   const { done, total } = progress;
   return (
     <div class="row">
-      <span role="status">{words.indexing(done, total)}</span>
-      <progress value={done} max={Math.max(1, total)} aria-label={words.indexingLabel} />
+      <span role="status">
+        {total === 0 ? t("runs.reading") : t("runs.indexing", { done, total })}
+      </span>
+      <progress value={done} max={Math.max(1, total)} aria-label={t("runs.indexingLabel")} />
     </div>
   );
 }
@@ -119,7 +120,8 @@ export function ListPage() {
     <>
       <div class="row runs-head">
         <h2>
-          {words.title} {list && <small class="unit">{words.count(list.total)}</small>}
+          {t("runs.title")}{" "}
+          {list && <small class="unit">{t("runs.count", { count: list.total })}</small>}
         </h2>
         <Finder />
         {list && <Pages total={list.total} />}
@@ -131,7 +133,7 @@ export function ListPage() {
         </p>
       )}
       {indexing !== null && <Indexing progress={indexing} />}
-      {list === null && <p class="empty">{words.loading}</p>}
+      {list === null && <p class="empty">{t("runs.loading")}</p>}
       {list?.runs.length === 0 && <Empty />}
       {list && list.runs.length > 0 && <RunTable runs={list.runs} />}
     </>

@@ -1,6 +1,6 @@
 /** Text for the window of a run in which its metrics were measured. */
 import type { MeasuredWindow, RunSummary } from "../../core/api/types";
-import { measuredText as words } from "../../core/text/measured";
+import { t } from "../../core/text/t";
 
 export type Measured = Pick<
   MeasuredWindow,
@@ -20,15 +20,19 @@ export function shiftToRecordTime<T extends Measured>(
 export function describeMeasured(window: Measured, isNamed = false): string {
   const { label, start_s: start, end_s: end, is_whole: isWhole, lanes } = window;
   const what = isWhole
-    ? words.whole
-    : words.during(label || words.start, start.toFixed(2), end.toFixed(2));
-  return isNamed ? words.controlled(lanes, what) : what;
+    ? t("measured.whole")
+    : t("measured.during", {
+        what: label || t("measured.start"),
+        from: start.toFixed(2),
+        to: end.toFixed(2),
+      });
+  return isNamed ? t("measured.controlled", { lanes: lanes.join(" / "), what }) : what;
 }
 
 /** The steady-state error, or the reason why there is none. */
 export function explainSteadyState({ load_ended: hasEnded, start_s: start, end_s: end }: Measured) {
-  if (hasEnded) return words.loadEnded;
-  return end - start < 1 ? words.tooShort : words.steadyStateHint;
+  if (hasEnded) return t("measured.loadEnded");
+  return end - start < 1 ? t("measured.tooShort") : t("measured.steadyStateHint");
 }
 
 /** Whether a load was added or removed at the start of the window. */

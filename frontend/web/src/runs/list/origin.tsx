@@ -7,26 +7,27 @@ import type { RunDetails, RunSummary } from "../../core/api/types";
 import { SVSA } from "../../core/state/actuators";
 import { isArm } from "../../core/state/arm";
 import { phase, session } from "../../core/state/session";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { Highlighted } from "./highlight";
 import { PlaceLink } from "./place";
 
 type Origin = NonNullable<RunSummary["branch_of"]>;
 
-const words = text.runs;
-
 /** The run from which a branch started, and the time of the branch. */
 export function OriginLink({ origin }: { origin: Origin }) {
   const { run_id: run, title, time_s: timeS } = origin;
   const name = title ?? run;
-  const at = timeS === null ? "" : words.at(words.seconds(Number(timeS.toFixed(3))));
-  const message = words.branchOf(name, at);
+  const at =
+    timeS === null
+      ? ""
+      : t("runs.at", { time: t("runs.seconds", { seconds: Number(timeS.toFixed(3)) }) });
+  const message = t("runs.branchOf", { name, time: at }).trim();
   return (
     <span class="hint run-origin" title={message}>
       <svg viewBox="0 0 12 12" aria-hidden="true">
         <path d="M3 1v10M3 8c0-3 6-2 6-6" />
       </svg>
-      <span class="visually-hidden">{words.branch} </span>
+      <span class="visually-hidden">{t("runs.branch")} </span>
       {title === null ? (
         <Highlighted>{name}</Highlighted>
       ) : (
@@ -58,7 +59,7 @@ function SessionOrigin({ runId, tick }: { runId: string; tick: number }) {
   const timeS = run === null ? null : (tick - run.first_tick) * run.period_s;
   return (
     <>
-      {text.private.origin} <OriginLink origin={{ run_id: runId, tick, title, time_s: timeS }} />
+      {t("private.origin")} <OriginLink origin={{ run_id: runId, tick, title, time_s: timeS }} />
     </>
   );
 }
@@ -69,19 +70,25 @@ export function PrivateBanner() {
   const branch = session.value?.branch_of;
   const actuator = session.value?.actuator;
   const other = actuator === undefined || actuator.name === SVSA ? "" : actuator.title;
-  const simulated = isArm.value ? text.arm.name : other;
+  const simulated = isArm.value ? t("arm.name") : other;
   const note = session.value?.note;
   const isEnded = phase.value === "ended";
   return (
-    <aside class="row private-banner" aria-label={text.private.label}>
+    <aside class="row private-banner" aria-label={t("private.label")}>
       <p role="status">
-        <strong>{isEnded ? text.private.endedTitle : text.private.titleOf(simulated)}</strong>{" "}
-        {isEnded ? text.private.endedText : text.private.text}{" "}
+        <strong>
+          {isEnded
+            ? t("private.endedTitle")
+            : simulated === ""
+              ? t("private.title")
+              : t("private.titleOf", { actuator: simulated })}
+        </strong>{" "}
+        {isEnded ? t("private.endedText") : t("private.text")}{" "}
         {branch && <SessionOrigin runId={branch.run_id} tick={branch.tick} />}
       </p>
       {note && <p role="note">{note}</p>}
       <a class={`button ${isEnded ? "is-primary" : ""}`} href={location.pathname}>
-        {text.private.back}
+        {t("private.back")}
       </a>
     </aside>
   );

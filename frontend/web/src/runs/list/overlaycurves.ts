@@ -11,8 +11,8 @@ import type {
 } from "../../core/api/types";
 import type { LineStyle } from "../../core/plots/definitions";
 import { lineStyleAt, shareLineStyles } from "../../core/plots/linestyles";
-import { text } from "../../core/text/en";
 import { CHANGES, CHANGES_OF_CONTROLLER, CONTROLLER, LOADS } from "../../core/text/runs";
+import { t } from "../../core/text/t";
 import { DEGREES_PER_RADIAN } from "../../core/units";
 import { shiftToRecordTime } from "./measured";
 
@@ -26,8 +26,8 @@ export const FACTORS: Record<OverlayChannel, number> = {
   stiffness_error_nm_per_rad: 1,
 };
 export const TITLES: Record<OverlayChannel, { title: string; unit: string }> = {
-  position_error_rad: { title: text.overlay.error, unit: text.overlay.degrees },
-  stiffness_error_nm_per_rad: { title: text.overlay.stiffness, unit: text.overlay.stiffnessUnit },
+  position_error_rad: { title: t("overlay.error"), unit: t("overlay.degrees") },
+  stiffness_error_nm_per_rad: { title: t("overlay.stiffness"), unit: t("overlay.stiffnessUnit") },
 };
 const POINTS = 4000;
 
@@ -70,11 +70,11 @@ export interface OverlayCurve {
 }
 
 export const nameCurve = ({ isAlone, runName, lane }: OverlayCurve): string =>
-  isAlone ? runName : text.overlay.curve(runName, lane);
+  isAlone ? runName : t("overlay.curve", { run: runName, lane });
 
 /** Start of the window of the metrics, if it is another event than a load. */
 export const nameWindow = ({ window }: Pick<OverlayCurve, "window">): string =>
-  window?.label ? text.overlay.fromChange(window.label) : text.overlay.fromStart;
+  window?.label ? t("overlay.fromChange", { change: window.label }) : t("overlay.fromStart");
 
 function readLane(samples: RunSamples, lane: string): OverlayCurve["values"] {
   const read = (channel: OverlayChannel) =>
@@ -158,8 +158,6 @@ export async function readCurves(runs: readonly string[]): Promise<OverlayCurve[
 
 // Metrics of runs may be compared only if all had the same task.
 
-const words = text.overlay.unlike;
-
 /**
  * Differences that a comparison permits: controllers and their settings, and the server's changes
  * of them; the onset of a load is compared in session time, while the server uses the record's
@@ -187,13 +185,13 @@ export function explainDifference(
   difference: RunDifference | null,
 ): string {
   const windowNames = curves.map(({ window }) => window && `${window.kind} ${window.label}`);
-  if (windowNames.includes(null) || !areSame(windowNames)) return words.windows;
-  if (!areSame(curves.map(({ plant }) => plant))) return words.plants;
+  if (windowNames.includes(null) || !areSame(windowNames)) return t("overlay.unlike.windows");
+  if (!areSame(curves.map(({ plant }) => plant))) return t("overlay.unlike.plants");
   if (areSame(curves.map(({ run }) => run))) return "";
-  if (difference === null) return words.unknown;
+  if (difference === null) return t("overlay.unlike.unknown");
   const differing = listDiffering(difference);
-  if (differing.length > 0) return words.settings(differing);
-  return areSame(curves.map(({ loads }) => loads)) ? "" : words.loads;
+  if (differing.length > 0) return t("overlay.unlike.settings", { groups: differing.join(", ") });
+  return areSame(curves.map(({ loads }) => loads)) ? "" : t("overlay.unlike.loads");
 }
 
 /**

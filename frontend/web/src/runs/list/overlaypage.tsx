@@ -10,7 +10,7 @@ import {
   useStaticChart,
   wholeOf,
 } from "../../core/plots/staticchart";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { DifferenceTable } from "./differencetable";
 import { drawBands, drawEdges, drawOutside, drawWorst } from "./drawnverdict";
 import {
@@ -28,7 +28,6 @@ import { attempt } from "./problem";
 import { listAssessments, listBands, type RunAssessment } from "./verdict";
 import { VerdictPanel } from "./verdictpanel";
 
-const words = text.overlay;
 const MIN_SPANS: Record<OverlayChannel, number> = {
   position_error_rad: 0.004,
   stiffness_error_nm_per_rad: 0.001,
@@ -64,7 +63,11 @@ function describeChart({ channel, curves, judged, view, hidden }: PlotProps) {
     })),
     minSpan: MIN_SPANS[channel],
     padding: [8, 14, 0, 0],
-    timeAxis: { size: TIME_AXIS_PX, tick: words.timeTick },
+    timeAxis: {
+      size: TIME_AXIS_PX,
+      tick: (seconds: number) =>
+        t("overlay.timeTick", { seconds: Number(seconds.toFixed(4)) }).replace("-", "−"),
+    },
     group: "overlay",
     hidden,
     ...view,
@@ -86,7 +89,7 @@ function OverlayPlot(props: PlotProps) {
       <h3 class="small">
         {title} <span class="unit">{unit}</span>
       </h3>
-      <div class="grow overlay-canvas" ref={host} title={words.hint} />
+      <div class="grow overlay-canvas" ref={host} title={t("overlay.hint")} />
     </section>
   );
 }
@@ -95,7 +98,7 @@ const isMeasuredInPart = ({ startS, changedS }: OverlayCurve): boolean =>
   startS !== 0 || changedS !== null;
 
 const measuredOf = ({ startS, changedS, time }: OverlayCurve): string =>
-  words.measured(startS.toFixed(2), (changedS ?? time.at(-1) ?? 0).toFixed(2));
+  t("overlay.measured", { from: startS.toFixed(2), to: (changedS ?? time.at(-1) ?? 0).toFixed(2) });
 
 function Remark({ curve }: { curve: OverlayCurve }) {
   return (
@@ -156,15 +159,15 @@ export function OverlayPage({ runs }: { runs: readonly string[] }) {
     <>
       <div class="row runs-head">
         <PlaceLink to={{ kind: "list" }} class="button">
-          ← {text.run.toList}
+          ← {t("run.toList")}
         </PlaceLink>
         <h2>
-          {words.title}{" "}
-          <small class="unit">{words.aligned[curves?.[0]?.alignment ?? "window"]}</small>
+          {t("overlay.title")}{" "}
+          <small class="unit">{t(`overlay.aligned.${curves?.[0]?.alignment ?? "window"}`)}</small>
         </h2>
       </div>
-      {curves === null && <p class="empty">{text.runs.loading}</p>}
-      {curves?.length === 0 && <p class="empty">{words.nothing}</p>}
+      {curves === null && <p class="empty">{t("runs.loading")}</p>}
+      {curves?.length === 0 && <p class="empty">{t("overlay.nothing")}</p>}
       {curves && curves.length > 0 && (
         <div class="surface column overlay">
           <OverlayCurves curves={curves} judged={judged} />

@@ -1,14 +1,12 @@
 import type { Metrics, RunDifference } from "../../core/api/types";
 import { AllMetrics } from "../../core/plots/allmetrics";
 import { type MetricsColumn, MetricsTable } from "../../core/plots/metricstable";
-import { text } from "../../core/text/en";
-import { metricsText } from "../../core/text/metrics";
+import { t } from "../../core/text/t";
+
 import { formatError, formatNumber, toDegrees } from "../../core/units";
 import { bestOf } from "../../core/widgets/tables";
 import { describeMeasured, isDisturbed } from "./measured";
 import { explainDifference, haveEqualLength, nameCurve, type OverlayCurve } from "./overlaycurves";
-
-const words = text.overlay;
 
 interface Column {
   name: string;
@@ -20,38 +18,38 @@ interface Column {
 
 export const COLUMNS: readonly Column[] = [
   {
-    name: words.rmsError,
-    unit: words.degrees,
+    name: t("overlay.rmsError"),
+    unit: t("overlay.degrees"),
     read: (metrics) => toDegrees(metrics.rms_position_error_rad),
     isBest: "in one length",
   },
   {
-    name: words.peakError,
-    unit: words.degrees,
+    name: t("overlay.peakError"),
+    unit: t("overlay.degrees"),
     read: (metrics) => toDegrees(metrics.peak_position_error_rad),
     isBest: "always",
   },
   {
-    name: words.steadyStateError,
-    unit: words.degrees,
+    name: t("overlay.steadyStateError"),
+    unit: t("overlay.degrees"),
     read: ({ steady_state_position_error_rad: rad }) => (rad === null ? null : toDegrees(rad)),
     isBest: "always",
   },
   {
-    name: words.recovery,
-    unit: words.secondsUnit,
+    name: t("overlay.recovery"),
+    unit: t("overlay.secondsUnit"),
     read: (metrics) => metrics.recovery_time_s,
     isBest: "always",
   },
   {
-    name: words.rmsStiffness,
-    unit: words.stiffnessUnit,
+    name: t("overlay.rmsStiffness"),
+    unit: t("overlay.stiffnessUnit"),
     read: (metrics) => metrics.rms_stiffness_error_nm_per_rad,
     isBest: "in one length",
   },
   {
-    name: words.peakTorque,
-    unit: words.torqueUnit,
+    name: t("overlay.peakTorque"),
+    unit: t("overlay.torqueUnit"),
     read: (metrics) => metrics.peak_torque1_nm,
     isBest: null,
   },
@@ -103,27 +101,27 @@ export function OverlayTable({ curves, difference }: OverlayTableProps) {
     best: findBest(curves, column, why === ""),
   }));
   const window: MetricsColumn = {
-    key: words.window,
-    title: words.window,
-    hint: words.windowHint[curves[0]?.alignment ?? "window"],
+    key: t("overlay.window"),
+    title: t("overlay.window"),
+    hint: t(`overlay.windowHint.${curves[0]?.alignment ?? "window"}`),
     class: "overlay-window",
     cell: (row) => windowOf(curves[row] as OverlayCurve),
   };
   return (
     // biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls is reached by keyboard
-    <section class="scroll overlay-table" tabIndex={0} aria-label={words.table}>
+    <section class="scroll overlay-table" tabIndex={0} aria-label={t("overlay.table")}>
       <MetricsTable
         class="metrics"
         caption={
           <span>
-            {words.table}
-            {why !== "" && <small class="unit"> {words.noBest(why)}</small>}
+            {t("overlay.table")}
+            {why !== "" && <small class="unit"> {t("overlay.noBest", { why })}</small>}
             {why === "" && !haveEqualLength(curves) && (
-              <small class="unit"> {words.noBestRms}</small>
+              <small class="unit"> {t("overlay.noBestRms")}</small>
             )}
           </span>
         }
-        corner={words.run}
+        corner={t("overlay.run")}
         rows={curves.map((curve) => ({
           key: curve.key,
           look: curve.lineStyle,
@@ -132,9 +130,9 @@ export function OverlayTable({ curves, difference }: OverlayTableProps) {
         columns={[window, ...columns]}
       />
       <details>
-        <summary>{metricsText.all}</summary>
+        <summary>{t("metrics.all")}</summary>
         <AllMetrics
-          caption={words.table}
+          caption={t("overlay.table")}
           lanes={curves.map((curve) => ({
             key: curve.key,
             look: curve.lineStyle,

@@ -5,7 +5,7 @@ import { awaitOutcome } from "../../core/api/outcome";
 import { fetchFile } from "../../core/api/runs";
 import { explain } from "../../core/state/actions";
 import { phase } from "../../core/state/session";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 
 /** The last rejection; cleared by the next request. */
 export const runsProblem = signal("");
@@ -27,7 +27,7 @@ async function describeOutcome(error: unknown): Promise<string> {
   if (!(error instanceof UnansweredError) || error.request === null) return explain(error);
   try {
     await awaitOutcome(error);
-    return text.connection.doneUnseen;
+    return t("connection.doneUnseen");
   } catch (outcome) {
     return explain(outcome);
   }

@@ -2,7 +2,7 @@ import { useSignalEffect } from "@preact/signals";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { atMoment } from "../../core/api/runs";
 import { theme } from "../../core/state/preferences";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { pressStop } from "../../lab/safety/stop";
 
 interface ReplayFrameProps {
@@ -26,12 +26,12 @@ function passStop(event: KeyboardEvent): void {
 
 /** Message of the server instead of a replay, for example if too many wait; null for a replay. */
 function readRefusal(shown: Document | null): string | null {
-  if (shown === null) return text.connection.unreachable;
+  if (shown === null) return t("connection.unreachable");
   if (shown.contentType === "text/html") return null;
   try {
     return String(JSON.parse(shown.body.innerText).detail);
   } catch {
-    return text.connection.unreachable;
+    return t("connection.unreachable");
   }
 }
 
@@ -59,14 +59,14 @@ export function ReplayFrame({ source, name, startS, onMoment }: ReplayFrameProps
     <div class="column joined replay-place">
       {answer === null && (
         <p class="muted replay-waiting" role="status">
-          {text.run.waiting}
+          {t("run.waiting")}
         </p>
       )}
       {answer?.refusal && (
         <div class="muted replay-waiting" role="alert">
           <p class="problem">{answer.refusal}</p>
           <button type="button" class="button" onClick={() => setTries(tries + 1)}>
-            {text.run.again}
+            {t("run.again")}
           </button>
         </div>
       )}
@@ -75,7 +75,7 @@ export function ReplayFrame({ source, name, startS, onMoment }: ReplayFrameProps
         ref={frame}
         class="replay-frame"
         hidden={Boolean(answer?.refusal)}
-        title={text.run.replay(name)}
+        title={t("run.replay", { name })}
         src={atMoment(source, moment.current)}
         onLoad={({ currentTarget: { contentDocument, contentWindow } }) => {
           const refusal = readRefusal(contentDocument);

@@ -1,7 +1,7 @@
 import { useEffect, useState } from "preact/hooks";
 import type { RunSummary } from "../../core/api/types";
 import { plantKindOfRun } from "../../core/state/plant";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { PlantMark } from "../../core/widgets/plantmark";
 import { COLUMNS } from "./columns";
 import { excerpt, Highlighted, searchedWords } from "./highlight";
@@ -9,8 +9,6 @@ import { MAX_SELECTED, moveToTrash, restoreFromTrash, selectedRuns, toggleSelect
 import { OriginLink } from "./origin";
 import { PlaceLink } from "./place";
 import { type RunOverview, readOverview, Sparkline } from "./sparkline";
-
-const words = text.runs;
 
 /** Null until it is read, and if the run cannot be read. */
 function useOverview({ id, ticks }: RunSummary): RunOverview | null {
@@ -40,7 +38,7 @@ function State({ run }: { run: RunSummary }) {
   return (
     <strong class={`bad small run-state is-${run.state}`} title={run.message}>
       {run.state === "recording" ? "● " : "▲ "}
-      {words.state[run.state]}
+      {t(`runs.state.${run.state}`)}
     </strong>
   );
 }
@@ -51,7 +49,7 @@ function Choose({ run }: { run: RunSummary }) {
     <input
       type="checkbox"
       class="run-choose"
-      aria-label={words.choose(run.title)}
+      aria-label={t("runs.choose", { name: run.title })}
       checked={isChosen}
       disabled={run.ticks === 0 || (!isChosen && selectedRuns.value.length >= MAX_SELECTED)}
       onChange={() => toggleSelected(run.id)}
@@ -64,8 +62,8 @@ function Remove({ run }: { run: RunSummary }) {
     <button
       type="button"
       class="button is-small is-icon muted run-delete"
-      aria-label={words.removeThis(run.title)}
-      title={words.remove}
+      aria-label={t("runs.removeThis", { name: run.title })}
+      title={t("runs.remove")}
       disabled={run.state === "recording"}
       onClick={() => void moveToTrash(run.id)}
     >
@@ -152,10 +150,10 @@ export function RunRow({ run }: { run: RunSummary }) {
           <button
             type="button"
             class="button is-small"
-            aria-label={words.restoreThis(run.title)}
+            aria-label={t("runs.restoreThis", { name: run.title })}
             onClick={() => void restoreFromTrash(run.id)}
           >
-            {words.restore}
+            {t("runs.restore")}
           </button>
         ) : (
           <Remove run={run} />

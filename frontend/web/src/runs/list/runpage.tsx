@@ -1,7 +1,7 @@
 import { useCallback, useEffect, useRef, useState } from "preact/hooks";
 import { readRun, replayAddress } from "../../core/api/runs";
 import type { RunDetails, RunSummary } from "../../core/api/types";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { RunActions } from "./actions";
 import { patchRun } from "./list";
 import { OriginLink } from "./origin";
@@ -10,8 +10,6 @@ import { attempt } from "./problem";
 import { ReplayFrame } from "./replayframe";
 import { Tags } from "./tags";
 import { formatLength, formatMoment } from "./words";
-
-const words = text.run;
 
 interface WrittenProps {
   label: string;
@@ -68,7 +66,7 @@ function About({ run, onChanged }: AboutProps) {
       <h2 class="visually-hidden">{run.title}</h2>
       <div class="row">
         <Written
-          label={words.name}
+          label={t("run.name")}
           hint={run.settings?.name || run.id}
           class="run-name"
           longest={200}
@@ -76,21 +74,21 @@ function About({ run, onChanged }: AboutProps) {
           onWrite={(name) => write({ name })}
         />
         <span class="hint clip">
-          {formatMoment(run.created)} · <span title={words.lengthHint}>{formatLength(run)}</span>
+          {formatMoment(run.created)} · <span title={t("run.lengthHint")}>{formatLength(run)}</span>
         </span>
         {run.name !== "" && run.settings && <span class="hint clip">{run.settings.name}</span>}
         {run.branch_of && <OriginLink origin={run.branch_of} />}
         {run.fault && (
           <strong class="bad small run-state is-fault" title={run.fault.message}>
-            ▲ {text.runs.fault(run.fault.label)}
+            ▲ {t("runs.fault", { what: run.fault.label })}
           </strong>
         )}
         <Tags run={run} onChanged={onChanged} onRefused={readAgain} />
       </div>
       {[run.message, run.note].map((line) => line !== "" && <p class="hint">{line}</p>)}
       <Written
-        label={words.notes}
-        hint={words.notesHint}
+        label={t("run.notes")}
+        hint={t("run.notesHint")}
         class="muted run-note"
         longest={10_000}
         value={run.notes}
@@ -104,10 +102,10 @@ function About({ run, onChanged }: AboutProps) {
 function Missing() {
   return (
     <div class="empty">
-      <h2>{words.missing}</h2>
-      <p>{words.missingText}</p>
+      <h2>{t("run.missing")}</h2>
+      <p>{t("run.missingText")}</p>
       <PlaceLink to={{ kind: "list" }} class="button is-primary">
-        {words.toList}
+        {t("run.toList")}
       </PlaceLink>
     </div>
   );
@@ -153,7 +151,7 @@ export function RunPage({ run: id, timeS }: { run: string; timeS: number }) {
     return (
       <div class="bar run-head">
         <PlaceLink to={{ kind: "list" }} class="button">
-          ← {words.toList}
+          ← {t("run.toList")}
         </PlaceLink>
       </div>
     );
@@ -162,7 +160,7 @@ export function RunPage({ run: id, timeS }: { run: string; timeS: number }) {
     <>
       <div class="bar run-head">
         <PlaceLink to={{ kind: "list" }} class="button">
-          ← {words.toList}
+          ← {t("run.toList")}
         </PlaceLink>
         <About run={run} onChanged={(changed) => setRun({ ...run, ...changed })} />
         <RunActions run={run} moment={moment} />
@@ -170,7 +168,7 @@ export function RunPage({ run: id, timeS }: { run: string; timeS: number }) {
       {run.ticks > 0 ? (
         <ReplayFrame source={replayAddress(id)} name={run.title} startS={timeS} onMoment={follow} />
       ) : (
-        <p class="empty">{words.noSamples}</p>
+        <p class="empty">{t("run.noSamples")}</p>
       )}
     </>
   );

@@ -1,5 +1,5 @@
 import { useEffect } from "preact/hooks";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { ErrorLine } from "../../core/widgets/form";
 import { deleted, restoreFromTrash } from "./list";
 import { ListPage } from "./listpage";
@@ -21,14 +21,14 @@ function Undo() {
     <div class="line loose floating undo" role="status" hidden={run === null}>
       {run && (
         <>
-          <span>{text.runs.deleted(run.title)}</span>
+          <span>{t("runs.deleted", { name: run.title })}</span>
           <button type="button" class="button" onClick={() => void restoreFromTrash(run.id)}>
-            {text.runs.undo}
+            {t("runs.undo")}
           </button>
           <button
             type="button"
             class="quiet"
-            aria-label={text.runs.dismiss}
+            aria-label={t("runs.dismiss")}
             onClick={() => {
               deleted.value = null;
             }}
@@ -47,7 +47,7 @@ export function Runs({ at }: { at: RunsPlace }) {
     runsProblem.value = "";
   }, [at.kind]);
   return (
-    <main class={`page ${at.kind === "run" ? "is-run" : "runs"}`} aria-label={text.runs.title}>
+    <main class={`page ${at.kind === "run" ? "is-run" : "runs"}`} aria-label={t("runs.title")}>
       <ErrorLine>{runsProblem.value}</ErrorLine>
       <Inside at={at} />
       <Undo />

@@ -2,7 +2,7 @@
 import { readRun, readSamples } from "../../core/api/runs";
 import type { RunDetails, RunSamples, StreamedName } from "../../core/api/types";
 import { lineStyleOf } from "../../core/plots/linestyles";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { formatNumber, toDegrees } from "../../core/units";
 
 const WIDTH = 300;
@@ -93,8 +93,11 @@ export function readOverview(run: string, ticks: number): Promise<RunOverview> {
 /** The position error of every lane over the whole run; nothing until it is read. */
 export function Sparkline({ overview }: { overview: RunOverview | null }) {
   const label = overview
-    ? text.runs.sparkline(overview.lanes.join(", "), formatNumber(toDegrees(overview.peak), 2, 3))
-    : text.runs.noSparkline;
+    ? t("runs.sparkline", {
+        lanes: overview.lanes.join(", "),
+        peak: formatNumber(toDegrees(overview.peak), 2, 3),
+      })
+    : t("runs.noSparkline");
   return (
     <svg
       class="block sparkline"

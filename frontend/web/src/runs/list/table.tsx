@@ -1,11 +1,9 @@
 import type { RunSummary } from "../../core/api/types";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { SortHead } from "../../core/widgets/tables";
 import { COLUMNS, type Column, NAME_SORT } from "./columns";
 import { changeQuery, sort } from "./list";
 import { RunRow } from "./row";
-
-const words = text.runs;
 
 interface HeadProps
   extends Pick<Column, "name" | "hint" | "sort" | "isDownFirst" | "isNumber">,
@@ -35,11 +33,11 @@ function Head({ name, hint, sort: column, isDownFirst, isNumber, width, ...rest 
 /** A page of runs as a table; on a narrow screen as cards. */
 export function RunTable({ runs }: { runs: readonly RunSummary[] }) {
   return (
-    <table class="surface run-table" aria-label={words.list}>
+    <table class="surface run-table" aria-label={t("runs.list")}>
       <thead>
         <tr>
           <td class="run-pick" />
-          <Head name={words.columns.name} sort={NAME_SORT} class="run-what" />
+          <Head name={t("runs.columns.name")} sort={NAME_SORT} class="run-what" />
           <td class="run-spark" />
           {COLUMNS.map(({ key, ...column }) => (
             <Head key={key} {...column} class={`run-${key}`} />

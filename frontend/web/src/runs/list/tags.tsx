@@ -1,6 +1,6 @@
 import { useId, useState } from "preact/hooks";
 import type { RunSummary } from "../../core/api/types";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { patchRun } from "./list";
 
 interface TagsProps {
@@ -25,14 +25,14 @@ export function Tags({ run, onChanged, onRefused }: TagsProps) {
     if (tag !== "" && !run.tags.includes(tag)) void put([...run.tags, tag]);
   };
   return (
-    <ul class="row" aria-label={text.runs.tagsOf(run.title)}>
+    <ul class="row" aria-label={t("runs.tagsOf", { name: run.title })}>
       {run.tags.map((tag) => (
         <li key={tag} class="tag">
           {tag}
           <button
             type="button"
-            aria-label={text.runs.removeTag(tag)}
-            title={text.runs.removeTag(tag)}
+            aria-label={t("runs.removeTag", { tag })}
+            title={t("runs.removeTag", { tag })}
             onClick={() => void put(run.tags.filter((other) => other !== tag))}
           >
             ✕
@@ -42,12 +42,12 @@ export function Tags({ run, onChanged, onRefused }: TagsProps) {
       <li>
         {draft === null ? (
           <button type="button" class="quiet" onClick={() => setDraft("")}>
-            {text.runs.addTag}
+            {t("runs.addTag")}
           </button>
         ) : (
           <form class="line tag-form" onSubmit={add}>
             <label class="visually-hidden" for={id}>
-              {text.runs.newTag}
+              {t("runs.newTag")}
             </label>
             <input
               id={id}
@@ -55,7 +55,7 @@ export function Tags({ run, onChanged, onRefused }: TagsProps) {
               maxLength={50}
               ref={(element) => element?.focus()}
               value={draft}
-              placeholder={text.runs.newTag}
+              placeholder={t("runs.newTag")}
               onInput={(event) => setDraft(event.currentTarget.value)}
               onKeyDown={(event) => {
                 if (event.key === "Escape") setDraft(null);
@@ -65,7 +65,7 @@ export function Tags({ run, onChanged, onRefused }: TagsProps) {
               }}
             />
             <button type="submit" class="quiet">
-              {text.runs.add}
+              {t("runs.add")}
             </button>
           </form>
         )}

@@ -1,5 +1,5 @@
 import { useState } from "preact/hooks";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { SelectField } from "../../core/widgets/form";
 import { NumberField } from "../../core/widgets/numberinput";
 import { CHANNELS, type OverlayChannel, type OverlayCurve, TITLES } from "./overlaycurves";
@@ -7,7 +7,6 @@ import { attempt } from "./problem";
 import { assessRuns, type Bounds, type RunAssessment } from "./verdict";
 import { VerdictTable } from "./verdicttable";
 
-const words = text.verdict;
 type Typed = Record<OverlayChannel, Bounds>;
 const AT_FIRST: Typed = {
   position_error_rad: { absolute: 0.5, relativePercent: 0, timeS: 0.01 },
@@ -23,9 +22,9 @@ interface FieldsProps {
 function Fields({ channel, typed, onType }: FieldsProps) {
   const { title, unit } = TITLES[channel];
   const units: [keyof Bounds, string, string][] = [
-    ["absolute", words.absolute, unit],
-    ["relativePercent", words.relative, words.percent],
-    ["timeS", words.time, words.secondsUnit],
+    ["absolute", t("verdict.absolute"), unit],
+    ["relativePercent", t("verdict.relative"), t("verdict.percent")],
+    ["timeS", t("verdict.time"), t("verdict.secondsUnit")],
   ];
   return (
     <fieldset>
@@ -68,9 +67,9 @@ export function VerdictPanel({ curves, judged, onJudged }: VerdictPanelProps) {
     setTyped({ ...typed, [channel]: { ...typed[channel], [field]: value } });
   };
   return (
-    <section aria-label={words.title}>
+    <section aria-label={t("verdict.title")}>
       <h3>
-        {words.title} <small class="unit">{words.hint}</small>
+        {t("verdict.title")} <small class="unit">{t("verdict.hint")}</small>
       </h3>
       <form
         class="form cells verdict-form"
@@ -80,7 +79,7 @@ export function VerdictPanel({ curves, judged, onJudged }: VerdictPanelProps) {
         }}
       >
         <SelectField
-          label={words.reference}
+          label={t("verdict.reference")}
           value={reference}
           options={runs.map(([run]) => run)}
           name={(run) => curves.find((curve) => curve.run === run)?.runName ?? run}
@@ -99,11 +98,11 @@ export function VerdictPanel({ curves, judged, onJudged }: VerdictPanelProps) {
         ))}
         <div class="row">
           <button type="submit" class="button" disabled={isJudging}>
-            {isJudging ? words.judging : words.judge}
+            {isJudging ? t("verdict.judging") : t("verdict.judge")}
           </button>
           {judged.length > 0 && (
             <button type="button" class="button" onClick={() => onJudged([])}>
-              {words.clear}
+              {t("verdict.clear")}
             </button>
           )}
         </div>

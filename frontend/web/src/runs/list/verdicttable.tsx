@@ -1,11 +1,9 @@
 import { Swatch } from "../../core/plots/legend";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { formatNumber } from "../../core/units";
 import { Table } from "../../core/widgets/tables";
 import { nameCurve, type OverlayCurve, TITLES } from "./overlaycurves";
 import { type CurveAssessment, listAssessments, type RunAssessment } from "./verdict";
-
-const words = text.verdict;
 
 /** Length of a run that was compared, and whether it is longer. */
 function describeCompared(
@@ -14,8 +12,8 @@ function describeCompared(
 ): string {
   const { ticks, own_ticks: own, other_ticks: other, compared_s: seconds } = verdict;
   const name = curves.find((curve) => curve.run === run)?.runName ?? run;
-  const message = words.compared(name, formatNumber(seconds, 4, 3));
-  return ticks === own && ticks === other ? `${message}.` : `${message}; ${words.notAll}.`;
+  const message = t("verdict.compared", { run: name, seconds: formatNumber(seconds, 4, 3) });
+  return ticks === own && ticks === other ? `${message}.` : `${message}; ${t("verdict.notAll")}.`;
 }
 
 function Row({ assessment }: { assessment: CurveAssessment }) {
@@ -34,11 +32,11 @@ function Row({ assessment }: { assessment: CurveAssessment }) {
       </td>
       <td class={assessment.isWithin ? "good" : "bad strong"}>
         <span aria-hidden="true">{assessment.isWithin ? "✓" : "✗"}</span>{" "}
-        {assessment.isWithin ? words.held : words.left}
+        {assessment.isWithin ? t("verdict.held") : t("verdict.left")}
       </td>
       <td>{formatNumber(assessment.worstS, 4, 3)} s</td>
       <td>{number(assessment.value)}</td>
-      <td>{words.range(number(assessment.low), number(assessment.high))}</td>
+      <td>{t("verdict.range", { low: number(assessment.low), high: number(assessment.high) })}</td>
       <td>{assessment.isWithin ? "–" : `${formatNumber(assessment.outsideS, 4, 3)} s`}</td>
     </tr>
   );
@@ -53,26 +51,31 @@ interface VerdictTableProps {
 export function VerdictTable({ curves, judged }: VerdictTableProps) {
   const rows = listAssessments(curves, judged);
   const failed = rows.filter(({ isWithin: isHeld }) => !isHeld).length;
-  const message = failed === 0 ? words.allHeld(rows.length) : words.notHeld(failed, rows.length);
+  const message =
+    failed === 0
+      ? rows.length === 1
+        ? t("verdict.isWithin")
+        : t("verdict.allHeld", { runs: rows.length })
+      : t("verdict.notHeld", { failed, count: rows.length });
   return (
     <>
       <p class="small" role="status">
         <strong class={failed === 0 ? "good" : "bad"}>{message}</strong>{" "}
         {judged.map((runAssessment) => describeCompared(runAssessment, curves)).join(" ")}{" "}
-        {words.marks}
+        {t("verdict.marks")}
       </p>
       <Table
-        label={words.table}
+        label={t("verdict.table")}
         class="overlay-table"
         look="metrics"
         heads={[
-          words.curve,
-          words.channel,
-          words.isHeld,
-          words.worst,
-          words.value,
-          words.band,
-          words.outside,
+          t("verdict.curve"),
+          t("verdict.channel"),
+          t("verdict.isHeld"),
+          t("verdict.worst"),
+          t("verdict.value"),
+          t("verdict.band"),
+          t("verdict.outside"),
         ]}
       >
         {rows.map((assessment) => (

@@ -1,7 +1,7 @@
 /** A run as text. */
 import type { RunDetails } from "../../core/api/types";
 import { describeLaw } from "../../core/state/laws";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import type { Filter } from "./list";
 
 const DAY = new Intl.DateTimeFormat("en-GB", {
@@ -34,9 +34,9 @@ export function formatMomentShort(iso: string): string {
 
 export function formatDuration(seconds: number): string {
   const rounded = Number(seconds.toFixed(1));
-  if (rounded < 60) return text.runs.seconds(rounded);
+  if (rounded < 60) return t("runs.seconds", { seconds: rounded });
   const wholeSeconds = Math.round(seconds);
-  return text.runs.minutes(Math.floor(wholeSeconds / 60), wholeSeconds % 60);
+  return t("runs.minutes", { minutes: Math.floor(wholeSeconds / 60), seconds: wholeSeconds % 60 });
 }
 
 /** Length of a record, and its start in session time, which its files and scripts use. */
@@ -46,7 +46,7 @@ export function formatLength(
   const length = formatDuration(run.duration_s);
   return run.first_tick === 0
     ? length
-    : text.run.lengthFrom(length, (run.first_tick * run.period_s).toFixed(2));
+    : t("run.lengthFrom", { length, start: (run.first_tick * run.period_s).toFixed(2) });
 }
 
 /** Text of a value by which runs are filtered. */
@@ -55,12 +55,12 @@ export function nameValue(filter: Filter, value: string): string {
     case "law":
       return describeLaw(value);
     case "figure":
-      return text.runs.figureName(value.toUpperCase());
+      return t("runs.figureName", { figure: value.toUpperCase() });
     case "tag":
       return value;
-    default: {
-      const names: Record<string, string> = text.runs.values[filter];
-      return names[value] ?? value;
-    }
+    default:
+      return t(`runs.values.${filter}.${value}` as "runs.values.load.none", {
+        defaultValue: value,
+      });
   }
 }

@@ -1,8 +1,7 @@
 import { useRef } from "preact/hooks";
-import { text } from "../../core/text/replay";
+import { t } from "../../core/text/t";
 import type { Run } from "./data";
 
-const { about } = text;
 const MAX_ENTRIES = 200;
 
 const isPlain = (value: unknown) => value === null || typeof value !== "object";
@@ -10,9 +9,9 @@ const words = (key: string) => key.replaceAll("_", " ");
 
 /** Any JSON value: simple ones as text, others as a list of names and values. */
 function Value({ value }: { value: unknown }) {
-  if (isPlain(value)) return <>{value === null ? about.empty : String(value)}</>;
+  if (isPlain(value)) return <>{value === null ? t("replay.about.empty") : String(value)}</>;
   if (Array.isArray(value) && value.every(isPlain)) {
-    return <>{value.map(String).join(", ") || about.empty}</>;
+    return <>{value.map(String).join(", ") || t("replay.about.empty")}</>;
   }
   const entries = Object.entries(value as object);
   return (
@@ -25,7 +24,9 @@ function Value({ value }: { value: unknown }) {
           </dd>
         </div>
       ))}
-      {entries.length > MAX_ENTRIES && <p>{about.more(entries.length - MAX_ENTRIES)}</p>}
+      {entries.length > MAX_ENTRIES && (
+        <p>{t("replay.about.more", { count: entries.length - MAX_ENTRIES })}</p>
+      )}
     </dl>
   );
 }
@@ -38,7 +39,7 @@ export function Header({ run }: { run: Run }) {
       <div class="name">
         <h1 class="clip">{run.title}</h1>
         <p class="hint">
-          {text.name}, {text.recorded}
+          {t("replay.name")}, {t("replay.recorded")}
         </p>
       </div>
       <dl class="grow small run-facts">
@@ -52,16 +53,20 @@ export function Header({ run }: { run: Run }) {
         ))}
       </dl>
       <button type="button" class="button" onClick={() => dialog.current?.showModal()}>
-        {about.open}
+        {t("replay.about.open")}
       </button>
-      <dialog ref={dialog} class="floating about" aria-label={about.open}>
+      <dialog ref={dialog} class="floating about" aria-label={t("replay.about.open")}>
         <div class="spread tabular about-head">
-          <h2>{about.open}</h2>
+          <h2>{t("replay.about.open")}</h2>
           <button type="button" class="button" onClick={() => dialog.current?.close()}>
-            {about.close}
+            {t("replay.about.close")}
           </button>
         </div>
-        <p class="hint">{about.drawn(run.curves.stride)}</p>
+        <p class="hint">
+          {run.curves.stride === 1
+            ? t("replay.about.everySample")
+            : t("replay.about.drawn", { stride: run.curves.stride })}
+        </p>
         <Value value={run.details} />
       </dialog>
     </header>

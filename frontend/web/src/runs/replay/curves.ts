@@ -3,7 +3,7 @@ import type { Joint, StreamedName } from "../../core/api/types";
 import { CHANNELS, type ChannelName, PRESETS, spanOf, unitOf } from "../../core/plots/channels";
 import { ownerOf, type Trace } from "../../core/plots/definitions";
 import { composeOfJoint } from "../../core/plots/joints";
-import { text } from "../../core/text/replay";
+import { t } from "../../core/text/t";
 import type { Recording } from "./data";
 
 /** The pieces of a curve are one array, with NaN while its controller was not in control. */
@@ -70,10 +70,10 @@ export function definePlots(recording: Recording): ReplayPlot[] {
       const channels = PRESETS[preset].filter(isRecorded);
       const belongs = (leader: string) => (name: ChannelName) =>
         name === leader || CHANNELS[name].truthOf === leader || CHANNELS[name].isReference;
-      const title = text.plots.presets[preset];
+      const title = t(`plots.presets.${preset}`);
       return {
         key: joint === null ? preset : `${preset}.${joint}`,
-        title: joint === null ? title : text.plots.ofJoint(joint, title),
+        title: joint === null ? title : t("plots.ofJoint", { joint, title }),
         unit: unitOf(channels),
         span: spanOf(channels),
         choices: composeOfJoint(channels, cast, joint).groups.map(({ key, label }) => {

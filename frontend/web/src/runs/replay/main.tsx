@@ -20,7 +20,7 @@ import { render } from "preact";
 import "../../core/translation";
 import { useMemo } from "preact/hooks";
 import { type Theme, theme } from "../../core/state/preferences";
-import { text } from "../../core/text/replay";
+import { t } from "../../core/text/t";
 import { Header } from "./about";
 import { handleKey, seek, setUpClock, timeS } from "./clock";
 import { definePlots, makeTimeAxis } from "./curves";
@@ -62,7 +62,7 @@ try {
   window.svsaReplay = { time: () => timeS.peek(), seek, setTheme };
 } catch (error) {
   console.error(error);
-  host.textContent = text.broken;
+  host.textContent = t("replay.broken");
 }
 
 function App({ recording }: { recording: Recording }) {
@@ -76,7 +76,7 @@ function App({ recording }: { recording: Recording }) {
         <Numbers recording={recording} />
         <section
           class={`surface plots ${recording.run.arm === null ? "" : "is-arm"}`}
-          aria-label={text.plots.heading}
+          aria-label={t("plots.heading")}
         >
           {plots.map((plot, index) => (
             <Plot

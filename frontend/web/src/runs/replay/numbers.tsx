@@ -3,14 +3,12 @@ import { AllMetrics } from "../../core/plots/allmetrics";
 import { lineStyleAt, lineStyleOfLane } from "../../core/plots/linestyles";
 import { type MetricsColumn, MetricsTable } from "../../core/plots/metricstable";
 import { LANES_OF_ARM } from "../../core/state/joints";
-import { metricsText } from "../../core/text/metrics";
-import { text } from "../../core/text/replay";
+import { t } from "../../core/text/t";
+
 import { formatNumber, toDegrees } from "../../core/units";
 import { describeMeasured, explainSteadyState, isDisturbed } from "../list/measured";
 import { isPlaying, seek } from "./clock";
 import type { Recording, Run } from "./data";
-
-const { numbers } = text;
 
 const formatMetric = (value: number | null) => formatNumber(value, 3, 4);
 const formatError = (rad: number | null) => formatMetric(rad === null ? null : toDegrees(rad));
@@ -31,22 +29,26 @@ function Metrics({ run }: { run: Run }) {
       return format(row === undefined ? null : read(row));
     };
   const columns: MetricsColumn[] = [
-    { key: "rms", title: numbers.rms, cell: cell((row) => row.rms_position_error_rad) },
-    { key: "peak", title: numbers.peak, cell: cell((row) => row.peak_position_error_rad) },
+    { key: "rms", title: t("replay.numbers.rms"), cell: cell((row) => row.rms_position_error_rad) },
+    {
+      key: "peak",
+      title: t("replay.numbers.peak"),
+      cell: cell((row) => row.peak_position_error_rad),
+    },
     {
       key: "settled",
-      title: numbers.settled,
+      title: t("replay.numbers.settled"),
       hint: explainSteadyState(window),
       cell: cell((row) => row.steady_state_position_error_rad),
     },
     {
       key: "rms stiffness",
-      title: numbers.rms,
+      title: t("replay.numbers.rms"),
       cell: cell((row) => row.rms_stiffness_error_nm_per_rad, formatMetric),
     },
     {
       key: "peak stiffness",
-      title: numbers.peak,
+      title: t("replay.numbers.peak"),
       cell: cell((row) => row.peak_stiffness_error_nm_per_rad, formatMetric),
     },
   ];
@@ -61,12 +63,12 @@ function Metrics({ run }: { run: Run }) {
   return (
     <MetricsTable
       class="metrics strong"
-      caption={numbers.heading(describeMeasured(window))}
-      captionHint={numbers.hint}
-      corner={<span class="visually-hidden">{numbers.lane}</span>}
+      caption={t("replay.numbers.heading", { window: describeMeasured(window) })}
+      captionHint={t("replay.numbers.hint")}
+      corner={<span class="visually-hidden">{t("replay.numbers.lane")}</span>}
       groups={[
-        group(numbers.position, numbers.degrees, 3),
-        group(numbers.stiffness, numbers.stiffnessUnit, 2),
+        group(t("replay.numbers.position"), t("replay.numbers.degrees"), 3),
+        group(t("replay.numbers.stiffness"), t("replay.numbers.stiffnessUnit"), 2),
       ]}
       rows={window.lanes.map((name, index) => ({
         key: `${index}.${name}`,
@@ -89,7 +91,7 @@ function Details({ run }: { run: Run }) {
   }));
   return (
     <details>
-      <summary>{metricsText.all}</summary>
+      <summary>{t("metrics.all")}</summary>
       <AllMetrics caption={describeMeasured(window)} lanes={lanes} />
     </details>
   );
@@ -98,20 +100,26 @@ function Details({ run }: { run: Run }) {
 function Events({ run }: { run: Run }) {
   return (
     <div class="menu events">
-      <h2>{text.events.heading}</h2>
-      {run.events.length === 0 && <p class="hint">{text.events.none}</p>}
+      <h2>{t("replay.events.heading")}</h2>
+      {run.events.length === 0 && <p class="hint">{t("replay.events.none")}</p>}
       <ul>
         {run.events.map((event, index) => (
           <li key={`${index}.${event.label}`}>
             <button
               type="button"
-              aria-label={text.events.jump(text.transport.seconds(event.time_s), event.label)}
+              aria-label={t("replay.events.jump", {
+                time: t("replay.transport.seconds", { seconds: event.time_s.toFixed(2) }),
+                label: event.label,
+              })}
               onClick={() => {
                 isPlaying.value = false;
                 seek(event.time_s);
               }}
             >
-              <span class="number hint">{text.transport.seconds(event.time_s)}</span> {event.label}
+              <span class="number hint">
+                {t("replay.transport.seconds", { seconds: event.time_s.toFixed(2) })}
+              </span>{" "}
+              {event.label}
             </button>
           </li>
         ))}

@@ -6,7 +6,7 @@ import { Legend, useHidden } from "../../core/plots/legend";
 import { palette } from "../../core/plots/linestyles";
 import { describeTimeChart, type TimeChart, useStaticChart } from "../../core/plots/staticchart";
 import { hasOneValue, hasUnnamedTruth } from "../../core/plots/traces";
-import { text } from "../../core/text/replay";
+import { t } from "../../core/text/t";
 import { formatNumber } from "../../core/units";
 import { range, seek, showAll, showRange, timeS } from "./clock";
 import type { Curve, ReplayPlot } from "./curves";
@@ -39,7 +39,10 @@ function useChart(props: PlotProps, curves: readonly Curve[], hidden: TimeChart[
       hidden,
       minSpan: plot.span,
       padding: [isFirst ? LABELS_PX : 8, 12, isLast ? 0 : 7, 0],
-      timeAxis: { size: isLast ? X_AXIS_PX : 0, tick: text.plots.timeTick },
+      timeAxis: {
+        size: isLast ? X_AXIS_PX : 0,
+        tick: (seconds: number) => t("plots.timeTick", { seconds: Number(seconds.toFixed(4)) }),
+      },
       group: "replay",
       span: range,
       onSelect: (chosen) => (chosen ? showRange(chosen.from, chosen.to) : showAll()),
@@ -76,7 +79,7 @@ export function Plot(props: PlotProps) {
           {plot.title} <span class="unit">{plot.unit}</span>
         </h3>
         {plot.choices.length > 1 && (
-          <fieldset class="choices" aria-label={text.plots.choose(plot.title)}>
+          <fieldset class="choices" aria-label={t("replay.plots.choose", { title: plot.title })}>
             {plot.choices.map((choice, index) => (
               <label key={choice.label} class="chip">
                 <input
@@ -91,7 +94,7 @@ export function Plot(props: PlotProps) {
           </fieldset>
         )}
         <Legend
-          note={hasUnnamedTruth(curves) ? text.plots.disturbanceNote : undefined}
+          note={hasUnnamedTruth(curves) ? t("plots.disturbanceNote") : undefined}
           entries={curves.filter((curve) => curve.follows === undefined)}
           hidden={hidden.value}
           onToggle={toggle}
@@ -99,7 +102,11 @@ export function Plot(props: PlotProps) {
           isRead={(key) => hasOneValue(curves, key)}
         />
       </div>
-      <div class="plot-canvas" ref={host} title={props.isFirst ? text.plots.hint : undefined} />
+      <div
+        class="plot-canvas"
+        ref={host}
+        title={props.isFirst ? t("replay.plots.hint") : undefined}
+      />
     </section>
   );
 }

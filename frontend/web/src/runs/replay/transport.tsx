@@ -1,6 +1,6 @@
 import { useSignalEffect } from "@preact/signals";
 import { useRef } from "preact/hooks";
-import { text } from "../../core/text/replay";
+import { t } from "../../core/text/t";
 import {
   isPlaying,
   isWholeRun,
@@ -15,14 +15,13 @@ import {
 } from "./clock";
 import type { Recording } from "./data";
 
-const { transport } = text;
 const ZOOM_FACTOR = 0.5;
 
 function Scrubber({ recording: { run, endS } }: { recording: Recording }) {
   const input = useRef<HTMLInputElement>(null);
   const output = useRef<HTMLOutputElement>(null);
   useSignalEffect(() => {
-    const seconds = transport.seconds(timeS.value);
+    const seconds = t("replay.transport.seconds", { seconds: timeS.value.toFixed(2) });
     if (output.current) output.current.textContent = seconds;
     if (input.current === null) return;
     input.current.value = String(timeS.value);
@@ -32,8 +31,12 @@ function Scrubber({ recording: { run, endS } }: { recording: Recording }) {
   return (
     <>
       <div class="number time">
-        <output ref={output} aria-label={transport.time} />
-        <span>{transport.of(transport.seconds(endS))}</span>
+        <output ref={output} aria-label={t("replay.transport.time")} />
+        <span>
+          {t("replay.transport.of", {
+            duration: t("replay.transport.seconds", { seconds: endS.toFixed(2) }),
+          })}
+        </span>
       </div>
       <div class="scrubber">
         <input
@@ -42,7 +45,7 @@ function Scrubber({ recording: { run, endS } }: { recording: Recording }) {
           min={0}
           max={endS}
           step={run.period_s}
-          aria-label={transport.time}
+          aria-label={t("replay.transport.time")}
           onInput={(event) => {
             isPlaying.value = false;
             seek(event.currentTarget.valueAsNumber);
@@ -62,21 +65,21 @@ function Scrubber({ recording: { run, endS } }: { recording: Recording }) {
 
 export function Transport({ recording }: { recording: Recording }) {
   return (
-    <section class="bar is-foot transport" aria-label={transport.heading}>
+    <section class="bar is-foot transport" aria-label={t("replay.transport.heading")}>
       <button
         type="button"
         class="button is-primary play"
-        title={transport.keys}
+        title={t("replay.transport.keys")}
         onClick={togglePlay}
       >
         <svg viewBox="0 0 12 12" aria-hidden="true">
           <path d={isPlaying.value ? "M2 1h3v10H2zM7 1h3v10H7z" : "M2 1l9 5-9 5z"} />
         </svg>
-        {isPlaying.value ? transport.pause : transport.play}
+        {isPlaying.value ? t("replay.transport.pause") : t("replay.transport.play")}
       </button>
       <Scrubber recording={recording} />
       <label class="row">
-        <span class="hint">{transport.speed}</span>
+        <span class="hint">{t("replay.transport.speed")}</span>
         <select
           value={String(speed.value)}
           onChange={(event) => {
@@ -85,7 +88,7 @@ export function Transport({ recording }: { recording: Recording }) {
         >
           {SPEEDS.map((factor) => (
             <option key={factor} value={String(factor)}>
-              {transport.times(factor)}
+              {t("replay.transport.times", { factor })}
             </option>
           ))}
         </select>
@@ -94,8 +97,8 @@ export function Transport({ recording }: { recording: Recording }) {
         <button
           type="button"
           class="button is-icon"
-          aria-label={transport.zoomIn}
-          title={transport.zoomIn}
+          aria-label={t("replay.transport.zoomIn")}
+          title={t("replay.transport.zoomIn")}
           onClick={() => zoom(ZOOM_FACTOR)}
         >
           +
@@ -103,8 +106,8 @@ export function Transport({ recording }: { recording: Recording }) {
         <button
           type="button"
           class="button is-icon"
-          aria-label={transport.zoomOut}
-          title={transport.zoomOut}
+          aria-label={t("replay.transport.zoomOut")}
+          title={t("replay.transport.zoomOut")}
           disabled={isWholeRun(range.value)}
           onClick={() => zoom(1 / ZOOM_FACTOR)}
         >
@@ -113,11 +116,11 @@ export function Transport({ recording }: { recording: Recording }) {
         <button
           type="button"
           class="button"
-          title={transport.wholeHint}
+          title={t("replay.transport.wholeHint")}
           disabled={isWholeRun(range.value)}
           onClick={showAll}
         >
-          {transport.whole}
+          {t("replay.transport.whole")}
         </button>
       </div>
     </section>

@@ -3,7 +3,7 @@ import { useCallback, useEffect, useRef, useState } from "preact/hooks";
 import { lineStyleOf } from "../../core/plots/linestyles";
 import { LANES_OF_ARM, nameArms } from "../../core/state/joints";
 import { theme } from "../../core/state/preferences";
-import { text } from "../../core/text/replay";
+import { t } from "../../core/text/t";
 import { PlantMark } from "../../core/widgets/plantmark";
 import { SceneLabels } from "../../lab/scene/labels";
 import { handleKey, timeS } from "./clock";
@@ -67,11 +67,11 @@ export function View({ recording: { run, arrays } }: { recording: Recording }) {
     };
   }, [run, arrays]);
   return (
-    <section class={`surface view is-${state}`} aria-label={text.view}>
-      <iframe ref={frame} title={text.view} />
+    <section class={`surface view is-${state}`} aria-label={t("replay.view")}>
+      <iframe ref={frame} title={t("replay.view")} />
       {state === "shown" && <SceneLabels frame={present} />}
       <PlantMark kind={findMark(run)} />
-      {state === "failed" && <p class="muted view-problem">{text.noView}</p>}
+      {state === "failed" && <p class="muted view-problem">{t("replay.noView")}</p>}
       <ul class="row small view-legend">
         {plants.map((name, index) => (
           <li key={`${index}.${name}`}>
@@ -81,17 +81,17 @@ export function View({ recording: { run, arrays } }: { recording: Recording }) {
               coloursOf(run, own * index).map((colour) => <i key={colour} class={`is-${colour}`} />)
             )}
             <span class="legend-name">{name}</span>
-            <small>{index === 0 ? text.drawn.lane : text.drawn.ghost}</small>
+            <small>{index === 0 ? t("replay.drawn.lane") : t("replay.drawn.ghost")}</small>
           </li>
         ))}
         <li>
           <i class="is-reference" />
-          {text.drawn.reference}
+          {t("replay.drawn.reference")}
         </li>
         {run.arm !== null && (
           <li>
             <i class="is-ellipse" />
-            {text.drawn.ellipse}
+            {t("replay.drawn.ellipse")}
           </li>
         )}
       </ul>

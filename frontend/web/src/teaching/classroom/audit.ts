@@ -2,9 +2,8 @@
 import { signal } from "@preact/signals";
 import { type AuditLine, type AuditPage, type AuditQuery, readAudit } from "../../core/api/access";
 import { describeError } from "../../core/state/actions";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 
-const words = text.classroom.audit;
 const PAGE_SIZE = 50;
 const NEWEST: AuditQuery = { person: "", kind: "", onlyRefused: false, page: 1, until: "" };
 
@@ -48,7 +47,7 @@ export const countPages = (total: number): number => Math.max(1, Math.ceil(total
 
 /** Text of a kind; the server's name if the page has no text for it. */
 export const nameKind = (kind: string): string =>
-  Object.hasOwn(words.kinds, kind) ? words.kinds[kind as keyof typeof words.kinds] : kind;
+  t(`classroom.audit.kinds.${kind}` as "classroom.audit.kinds.law", { defaultValue: kind });
 
 /** Local time of day; with the date if it is not `now`'s. */
 export function formatTime(time: string, now: Date): string {
@@ -60,6 +59,12 @@ export function formatTime(time: string, now: Date): string {
 
 /** The result: done, rejected with a status, or the reason of an automatic action. */
 export function describeResult({ refused, status, why }: AuditLine): string {
-  const end = refused ? words.refused(status) : status === null ? "" : words.done;
+  const end = refused
+    ? status === null
+      ? t("classroom.audit.refused")
+      : t("classroom.audit.refusedWith", { status })
+    : status === null
+      ? ""
+      : t("classroom.audit.done");
   return [end, why].filter((part) => part).join(": ");
 }

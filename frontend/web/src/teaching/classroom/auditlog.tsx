@@ -1,6 +1,6 @@
 import { useEffect } from "preact/hooks";
 import type { AuditLine } from "../../core/api/access";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { ErrorLine, SelectField } from "../../core/widgets/form";
 import { Pager, Table } from "../../core/widgets/tables";
 import {
@@ -16,7 +16,6 @@ import {
   queryAudit,
 } from "./audit";
 
-const words = text.classroom.audit;
 const SHARED = "lab";
 
 /** The session, and its tick at that time. */
@@ -24,8 +23,8 @@ function Place({ line }: { line: AuditLine }) {
   if (line.session === null) return null;
   return (
     <>
-      {line.session === SHARED ? text.classroom.shared : line.session}
-      {line.tick !== null && <small>{words.tick(line.tick)}</small>}
+      {line.session === SHARED ? t("classroom.shared") : line.session}
+      {line.tick !== null && <small>{t("classroom.audit.tick", { tick: line.tick })}</small>}
     </>
   );
 }
@@ -39,7 +38,7 @@ function Line({ line, now }: { line: AuditLine; now: Date }) {
         </time>
       </td>
       <th scope="row" class="strong" title={line.person ?? undefined}>
-        {line.name ?? words.stranger}
+        {line.name ?? t("classroom.audit.stranger")}
       </th>
       <td class="audit-what" title={line.path ?? undefined}>
         {line.did} <small>{nameKind(line.kind)}</small>
@@ -58,17 +57,19 @@ function Filters() {
   return (
     <div class="row form audit-filters">
       <SelectField
-        label={words.person}
+        label={t("classroom.audit.person")}
         value={person}
         options={["", ...people.map(({ id }) => id)]}
-        name={(personId) => people.find(({ id }) => id === personId)?.name ?? words.allPersons}
+        name={(personId) =>
+          people.find(({ id }) => id === personId)?.name ?? t("classroom.audit.allPersons")
+        }
         onChoose={(chosen) => void queryAudit({ person: chosen })}
       />
       <SelectField
-        label={words.kind}
+        label={t("classroom.audit.kind")}
         value={kind}
         options={["", ...kinds]}
-        name={(option) => (option === "" ? words.everyKind : nameKind(option))}
+        name={(option) => (option === "" ? t("classroom.audit.everyKind") : nameKind(option))}
         onChoose={(chosen) => void queryAudit({ kind: chosen })}
       />
       <label class="row">
@@ -77,7 +78,7 @@ function Filters() {
           checked={onlyRefused}
           onChange={(event) => void queryAudit({ onlyRefused: event.currentTarget.checked })}
         />
-        <span>{words.onlyRefused}</span>
+        <span>{t("classroom.audit.onlyRefused")}</span>
       </label>
       <button
         type="button"
@@ -85,7 +86,7 @@ function Filters() {
         aria-disabled={isReading.value}
         onClick={() => void queryAudit()}
       >
-        {words.newest}
+        {t("classroom.audit.newest")}
       </button>
     </div>
   );
@@ -96,14 +97,14 @@ function Pages({ total }: { total: number }) {
   const pages = countPages(total);
   return (
     <Pager
-      label={words.pages}
+      label={t("classroom.audit.pages")}
       page={page}
       pages={pages}
-      back={words.newer}
-      on={words.older}
+      back={t("classroom.audit.newer")}
+      on={t("classroom.audit.older")}
       onTurn={(to) => void goToPage(to)}
     >
-      {words.page(page, pages, total)}
+      {t("classroom.audit.page", { page, count: pages, total })}
     </Pager>
   );
 }
@@ -119,13 +120,19 @@ function Lines() {
       <Filters />
       <ErrorLine>{problem.value}</ErrorLine>
       {page === null ? (
-        <p class="hint">{problem.value === "" && words.reading}</p>
+        <p class="hint">{problem.value === "" && t("classroom.audit.reading")}</p>
       ) : page.lines.length === 0 ? (
-        <p class="hint">{words.none}</p>
+        <p class="hint">{t("classroom.audit.none")}</p>
       ) : (
         <Table
           look="table audit-table"
-          heads={[words.time, words.who, words.what, words.where, words.end]}
+          heads={[
+            t("classroom.audit.time"),
+            t("classroom.audit.who"),
+            t("classroom.audit.what"),
+            t("classroom.audit.where"),
+            t("classroom.audit.end"),
+          ]}
         >
           {page.lines.map((line, row) => (
             <Line key={`${line.time} ${row}`} line={line} now={now} />
@@ -145,7 +152,7 @@ export function AuditLog({ isOpen, onToggle }: { isOpen: boolean; onToggle: () =
     <section class="stack">
       <h3>
         <button type="button" class="quiet audit-title" aria-expanded={isOpen} onClick={onToggle}>
-          {words.title}
+          {t("classroom.audit.title")}
         </button>
       </h3>
       {isOpen && <Lines />}

@@ -3,9 +3,7 @@ import { useId, useState } from "preact/hooks";
 import { join, login, rejoin } from "../../core/api/access";
 import { access } from "../../core/state/control";
 import { MAX_NAME_LENGTH, personName, setPersonName } from "../../core/state/preferences";
-import { text } from "../../core/text/en";
-
-const words = text.classroom;
+import { t } from "../../core/text/t";
 
 /** A student's name and the class code. */
 function StudentForm({ enter }: EnterProps) {
@@ -22,7 +20,7 @@ function StudentForm({ enter }: EnterProps) {
   };
   return (
     <form class="stack" onSubmit={submit}>
-      <label for={`${id}-name`}>{text.control.name}</label>
+      <label for={`${id}-name`}>{t("control.name")}</label>
       <input
         id={`${id}-name`}
         type="text"
@@ -32,7 +30,7 @@ function StudentForm({ enter }: EnterProps) {
         value={name}
         onInput={(event) => setName(event.currentTarget.value)}
       />
-      <label for={`${id}-code`}>{words.code}</label>
+      <label for={`${id}-code`}>{t("classroom.code")}</label>
       <input
         id={`${id}-code`}
         type="text"
@@ -46,7 +44,7 @@ function StudentForm({ enter }: EnterProps) {
         onInput={(event) => setCode(event.currentTarget.value)}
       />
       <button type="submit" class="button is-primary">
-        {words.join}
+        {t("classroom.join")}
       </button>
     </form>
   );
@@ -62,14 +60,18 @@ export function Join({ enter }: EnterProps) {
   };
   return (
     <>
-      {access.value?.removed === true && <p class="problem">{words.youAreRemoved}</p>}
+      {access.value?.removed === true && <p class="problem">{t("classroom.youAreRemoved")}</p>}
       {chosen === "student" && <StudentForm enter={enter} />}
-      {chosen === "back" && <SecretForm label={words.rejoinCode} enter={enter} send={comeIn} />}
-      {chosen === "instructor" && <SecretForm label={words.token} enter={enter} send={login} />}
+      {chosen === "back" && (
+        <SecretForm label={t("classroom.rejoinCode")} enter={enter} send={comeIn} />
+      )}
+      {chosen === "instructor" && (
+        <SecretForm label={t("classroom.token")} enter={enter} send={login} />
+      )}
       <p class="row">
         {WAYS.filter((way) => way !== chosen).map((way) => (
           <button key={way} type="button" class="quiet" onClick={() => choose(way)}>
-            {words.ways[way]}
+            {t(`classroom.ways.${way}`)}
           </button>
         ))}
       </p>
@@ -111,7 +113,7 @@ export function SecretForm({ label, enter, send }: SecretProps) {
         onInput={(event) => setSecret(event.currentTarget.value)}
       />
       <button type="submit" class="button is-primary">
-        {text.login.enter}
+        {t("login.enter")}
       </button>
     </form>
   );
@@ -139,8 +141,9 @@ export function RejoinCodeBanner() {
   return (
     <div class="row banner is-news" role="status">
       <p>
-        <strong>{words.rejoinCodeTitle}</strong>{" "}
-        <code class="strong nowrap class-return">{rejoinCode.value}</code> {words.rejoinCodeText}
+        <strong>{t("classroom.rejoinCodeTitle")}</strong>{" "}
+        <code class="strong nowrap class-return">{rejoinCode.value}</code>{" "}
+        {t("classroom.rejoinCodeText")}
       </p>
       <button
         type="button"
@@ -149,7 +152,7 @@ export function RejoinCodeBanner() {
           rejoinCode.value = "";
         }}
       >
-        {words.rejoinCodeNoted}
+        {t("classroom.rejoinCodeNoted")}
       </button>
     </div>
   );

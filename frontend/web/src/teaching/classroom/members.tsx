@@ -1,8 +1,6 @@
 import { useSignal } from "@preact/signals";
 import { type Member, readMembers, renewRejoinCodeOf } from "../../core/api/access";
-import { text } from "../../core/text/en";
-
-const words = text.classroom.members;
+import { t } from "../../core/text/t";
 
 /**
  * All members, active or not, for the instructor; read when it is opened. A member who has lost
@@ -33,13 +31,13 @@ export function Members({ attempt }: { attempt: (act: () => Promise<unknown>) =>
           aria-expanded={members.value !== null}
           onClick={toggle}
         >
-          {words.title}
+          {t("classroom.members.title")}
         </button>
       </h3>
-      {members.value !== null && <p class="hint">{words.hint}</p>}
+      {members.value !== null && <p class="hint">{t("classroom.members.hint")}</p>}
       {renewed.value !== null && (
         <p role="status">
-          {words.codeOnce(renewed.value.member.name)}{" "}
+          {t("classroom.members.codeOnce", { name: renewed.value.member.name })}{" "}
           <code class="strong nowrap class-return">{renewed.value.code}</code>
         </p>
       )}
@@ -53,10 +51,10 @@ export function Members({ attempt }: { attempt: (act: () => Promise<unknown>) =>
               <button
                 type="button"
                 class="button is-small"
-                aria-label={words.renew(member.name)}
+                aria-label={t("classroom.members.renew", { name: member.name })}
                 onClick={() => renew(member)}
               >
-                {words.renewShort}
+                {t("classroom.members.renewShort")}
               </button>
             </li>
           ))}

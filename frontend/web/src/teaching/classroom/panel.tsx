@@ -16,7 +16,7 @@ import {
 import { explain } from "../../core/state/actions";
 import { access, isClass, isInstructor, updateAccess } from "../../core/state/control";
 import { phase } from "../../core/state/session";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { ErrorLine } from "../../core/widgets/form";
 import { Panel, PanelButton } from "../../core/widgets/panel";
 import { PlaceLink } from "../../runs/list/place";
@@ -24,8 +24,6 @@ import { AuditLog } from "./auditlog";
 import { rejoinCode } from "./join";
 import { Members } from "./members";
 import { People, Removed, Sessions, Waiting } from "./people";
-
-const words = text.classroom;
 
 function close(): void {
   isOpen.value = false;
@@ -67,33 +65,39 @@ function Inside() {
           <button
             type="button"
             class="button"
-            title={words.broadcastHint}
+            title={t("classroom.broadcastHint")}
             onClick={() =>
               void attempt(async () => {
                 const sent = await broadcast();
-                note.value = words.sent(sent.taken, sent.refused.length);
+                note.value =
+                  sent.refused.length === 0
+                    ? t("classroom.sent", { accepted: sent.taken })
+                    : t("classroom.sentPartly", {
+                        accepted: sent.taken,
+                        refused: sent.refused.length,
+                      });
               })
             }
           >
-            {words.broadcast}
+            {t("classroom.broadcast")}
           </button>
           <button
             type="button"
             class="button"
-            title={words.newCodeHint}
+            title={t("classroom.newCodeHint")}
             onClick={() =>
               void attempt(async () => {
                 code.value = await renewCode();
               })
             }
           >
-            {words.newCode}
+            {t("classroom.newCode")}
           </button>
           <PlaceLink to={{ kind: "list" }} class="button">
-            {words.runs}
+            {t("classroom.runs")}
           </PlaceLink>
           <PlaceLink to={{ kind: "grades" }} class="button">
-            {text.grades.title}
+            {t("grades.title")}
           </PlaceLink>
         </div>
       )}
@@ -130,33 +134,33 @@ function Inside() {
         <button
           type="button"
           class="button"
-          title={words.scriptHint}
+          title={t("classroom.scriptHint")}
           onClick={() =>
             void attempt(async () => {
               token.value = (await createToken()).token;
             })
           }
         >
-          {words.script}
+          {t("classroom.script")}
         </button>
         {!isInstructor.value && (
           <button
             type="button"
             class="button"
-            title={words.newRejoinCodeHint}
+            title={t("classroom.newRejoinCodeHint")}
             onClick={() =>
               void attempt(async () => {
                 rejoinCode.value = (await renewRejoinCode()).rejoin_code;
               })
             }
           >
-            {words.newRejoinCode}
+            {t("classroom.newRejoinCode")}
           </button>
         )}
         <button
           type="button"
           class="button"
-          title={isInstructor.value ? undefined : words.leaveHint}
+          title={isInstructor.value ? undefined : t("classroom.leaveHint")}
           onClick={() =>
             void attempt(async () => {
               await leave();
@@ -166,12 +170,12 @@ function Inside() {
             })
           }
         >
-          {words.leave}
+          {t("classroom.leave")}
         </button>
       </div>
       {token.value !== "" && (
         <div>
-          {words.scriptOnce} <pre class="class-token">{token.value}</pre>
+          {t("classroom.scriptOnce")} <pre class="class-token">{token.value}</pre>
         </div>
       )}
     </div>
@@ -181,7 +185,7 @@ function Inside() {
 export function ClassPanel() {
   if (!isOpen.value || !isClass.value || access.value?.inside !== true) return null;
   return (
-    <Panel title={words.panelTitle} class="class-panel" onClose={close}>
+    <Panel title={t("classroom.panelTitle")} class="class-panel" onClose={close}>
       <Inside />
     </Panel>
   );
@@ -190,7 +194,7 @@ export function ClassPanel() {
 export function ClassButton() {
   if (!isClass.value) return null;
   return (
-    <PanelButton isOpen={isOpen} hint={words.openHint} name={words.open}>
+    <PanelButton isOpen={isOpen} hint={t("classroom.openHint")} name={t("classroom.open")}>
       <svg viewBox="0 0 16 16" aria-hidden="true">
         <path d="M5.5 7.5a2.75 2.75 0 1 0 0-5.5 2.75 2.75 0 0 0 0 5.5zM0 14c0-3 2.2-5 5.5-5S11 11 11 14zM11 7.5a2.25 2.25 0 1 0-.9-4.3 4 4 0 0 1 0 3.9q.4.4.9.4zM12.3 14H16c0-2.6-1.8-4.5-4.6-4.5l-.6.1c1 1 1.5 2.5 1.5 4.4z" />
       </svg>
@@ -208,11 +212,11 @@ function Code({ code }: { code: ClassCode }) {
   return (
     <figure class="class-qr">
       <figcaption>
-        {words.codeOnce} <strong class="class-code">{code.code}</strong>
+        {t("classroom.codeOnce")} <strong class="class-code">{code.code}</strong>
       </figcaption>
-      <img src={code.qr} alt={words.qr(code.code)} />
+      <img src={code.qr} alt={t("classroom.qr", { code: code.code })} />
       <span class="block breaks">{code.address}</span>
-      {code.is_local && <strong>{words.onlyHere}</strong>}
+      {code.is_local && <strong>{t("classroom.onlyHere")}</strong>}
     </figure>
   );
 }

@@ -1,10 +1,9 @@
 /** The users of a class, their queue for the control lease, and their private sessions. */
 import type { ClassState } from "../../core/api/access";
 import { access, handOver, isInstructor, lock, queue } from "../../core/state/control";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { Table } from "../../core/widgets/tables";
 
-const words = text.classroom;
 const SHARED = "lab";
 
 /** The members, and the session that each sees; the instructor can remove members. */
@@ -18,35 +17,37 @@ export function People({
   const ordered = [...people].sort((first, second) => first.name.localeCompare(second.name));
   return (
     <Table
-      label={words.here(people.length)}
+      label={t("classroom.here", { count: people.length })}
       class="class-people"
-      caption={words.here(people.length)}
+      caption={t("classroom.here", { count: people.length })}
       heads={[
-        words.name,
-        words.role,
-        words.sees,
-        ...(isInstructor.value ? [<span class="visually-hidden">{words.act}</span>] : []),
+        t("classroom.name"),
+        t("classroom.role"),
+        t("classroom.sees"),
+        ...(isInstructor.value ? [<span class="visually-hidden">{t("classroom.act")}</span>] : []),
       ]}
     >
       {ordered.map((person) => (
         <tr key={person.id}>
           <th scope="row">
-            {person.name} {person.id === access.value?.id && <small>({words.you})</small>}
+            {person.name} {person.id === access.value?.id && <small>({t("classroom.you")})</small>}
             <small class="block nowrap">{person.id}</small>
           </th>
-          <td>{words.roles[person.role]}</td>
-          <td>{person.sees.map((name) => (name === SHARED ? words.shared : name)).join(", ")}</td>
+          <td>{t(`classroom.roles.${person.role}`)}</td>
+          <td>
+            {person.sees.map((name) => (name === SHARED ? t("classroom.shared") : name)).join(", ")}
+          </td>
           {isInstructor.value && (
             <td class="number">
               {person.role !== "instructor" && (
                 <button
                   type="button"
                   class="button is-small"
-                  aria-label={words.remove(person.name)}
-                  title={words.removeHint}
+                  aria-label={t("classroom.remove", { name: person.name })}
+                  title={t("classroom.removeHint")}
                   onClick={() => remove(person.id)}
                 >
-                  {words.removeShort}
+                  {t("classroom.removeShort")}
                 </button>
               )}
             </td>
@@ -68,8 +69,8 @@ export function Removed({
   if (removed.length === 0) return null;
   return (
     <section>
-      <h3>{words.removed}</h3>
-      <p class="hint">{words.removedHint}</p>
+      <h3>{t("classroom.removed")}</h3>
+      <p class="hint">{t("classroom.removedHint")}</p>
       <ul class="stack">
         {removed.map((person) => (
           <li key={person.id} class="row">
@@ -79,10 +80,10 @@ export function Removed({
             <button
               type="button"
               class="button is-small"
-              aria-label={words.restore(person.name)}
+              aria-label={t("classroom.restore", { name: person.name })}
               onClick={() => restore(person.id)}
             >
-              {words.restoreShort}
+              {t("classroom.restoreShort")}
             </button>
           </li>
         ))}
@@ -96,8 +97,8 @@ export function Waiting() {
   const waiting = queue.value?.waiting ?? [];
   return (
     <section>
-      <h3>{words.queue}</h3>
-      {waiting.length === 0 && <p class="hint">{words.queueEmpty}</p>}
+      <h3>{t("classroom.queue")}</h3>
+      {waiting.length === 0 && <p class="hint">{t("classroom.queueEmpty")}</p>}
       <ol class="bullets">
         {waiting.map((user) => (
           <li key={user.id}>
@@ -107,10 +108,10 @@ export function Waiting() {
                 <button
                   type="button"
                   class="button is-small"
-                  aria-label={words.give(user.name)}
+                  aria-label={t("classroom.give", { name: user.name })}
                   onClick={() => void handOver(user.id)}
                 >
-                  {words.giveShort}
+                  {t("classroom.giveShort")}
                 </button>
               )}
             </div>
@@ -121,10 +122,10 @@ export function Waiting() {
         <button
           type="button"
           class="button"
-          title={words.lockHint}
+          title={t("classroom.lockHint")}
           onClick={() => void lock(queue.peek()?.locked !== true)}
         >
-          {queue.value.locked ? words.unlock : words.lock}
+          {queue.value.locked ? t("classroom.unlock") : t("classroom.lock")}
         </button>
       )}
     </section>
@@ -141,30 +142,30 @@ export function Sessions({
 }) {
   return (
     <section>
-      <h3>{words.sessions}</h3>
-      {sessions.length === 0 && <p class="hint">{words.noSessions}</p>}
+      <h3>{t("classroom.sessions")}</h3>
+      {sessions.length === 0 && <p class="hint">{t("classroom.noSessions")}</p>}
       <ul class="stack">
         {sessions.map((privateSession) => (
           <li key={privateSession.session} class="row">
             <span class="grow">
               {privateSession.owner} ·{" "}
-              {text.status[privateSession.status as "running" | "paused" | "fault"]}
-              {privateSession.recording && ` · ${words.recording}`}
+              {t(`status.${privateSession.status as "running" | "paused" | "fault"}`)}
+              {privateSession.recording && ` · ${t("classroom.recording")}`}
             </span>
             <a
               class="button is-small"
-              aria-label={words.openSession(privateSession.owner)}
+              aria-label={t("classroom.openSession", { owner: privateSession.owner })}
               href={`?session=${encodeURIComponent(privateSession.session)}`}
             >
-              {words.openShort}
+              {t("classroom.openShort")}
             </a>
             <button
               type="button"
               class="button is-small"
-              aria-label={words.end(privateSession.owner)}
+              aria-label={t("classroom.end", { owner: privateSession.owner })}
               onClick={() => end(privateSession.session)}
             >
-              {words.endShort}
+              {t("classroom.endShort")}
             </button>
           </li>
         ))}

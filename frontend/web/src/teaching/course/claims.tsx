@@ -1,13 +1,12 @@
 import { signal } from "@preact/signals";
 import type { Claim, ClaimNumbers, Figure } from "../../core/api/types";
 import { kinds } from "../../core/state/kinds";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { formatNumber } from "../../core/units";
 import { ErrorLine } from "../../core/widgets/form";
 import { ErrorPlot } from "./course";
 import { type FigureResult, runFigureInPrivate } from "./trial";
 
-const words = text.claims;
 const FIGURES: readonly Figure[] = ["4a", "4b", "5"];
 
 interface Trial {
@@ -32,21 +31,21 @@ const degrees = (value: number | null) => formatNumber(value ?? Number.NaN, 3, 4
 
 function NumbersTable({ numbers }: Pick<Claim, "numbers">) {
   const rows = [
-    [words.rows.before, words.degrees, "before_deg"],
-    [words.rows.peak, words.degrees, "peak_deg"],
-    [words.rows.steady, words.degrees, "steady_deg"],
-    [words.rows.stiffness, words.stiffnessUnit, "stiffness_steady_nm_per_rad"],
+    [t("claims.rows.before"), t("claims.degrees"), "before_deg"],
+    [t("claims.rows.peak"), t("claims.degrees"), "peak_deg"],
+    [t("claims.rows.steady"), t("claims.degrees"), "steady_deg"],
+    [t("claims.rows.stiffness"), t("claims.stiffnessUnit"), "stiffness_steady_nm_per_rad"],
   ] as const satisfies readonly (readonly [string, string, keyof ClaimNumbers])[];
   return (
     <table class="metrics strong">
-      <caption class="visually-hidden">{words.numbers}</caption>
+      <caption class="visually-hidden">{t("claims.numbers")}</caption>
       <thead>
         <tr>
           <th scope="col">
-            <span class="visually-hidden">{words.quantity}</span>
+            <span class="visually-hidden">{t("claims.quantity")}</span>
           </th>
-          <th scope="col">{text.controller.fl}</th>
-          <th scope="col">{text.controller.ndobc}</th>
+          <th scope="col">{t("controller.fl")}</th>
+          <th scope="col">{t("controller.ndobc")}</th>
         </tr>
       </thead>
       <tbody>
@@ -69,9 +68,13 @@ function Result({ figure, result }: { figure: Figure; result: FigureResult }) {
   const { course, claim } = result;
   const areAll = claim.parts.every(({ holds }) => holds);
   return (
-    <section class="stack" role="status" aria-label={words.result(text.figures.name[figure])}>
+    <section
+      class="stack"
+      role="status"
+      aria-label={t("claims.result", { figure: t(`figures.name.${figure}`) })}
+    >
       <blockquote class="note small">
-        <strong>{words.claim}</strong>{" "}
+        <strong>{t("claims.claim")}</strong>{" "}
         {kinds.value?.figures.find(({ key }) => key === figure)?.claim}
       </blockquote>
       <ErrorPlot course={course} />
@@ -80,20 +83,20 @@ function Result({ figure, result }: { figure: Figure; result: FigureResult }) {
         {claim.parts.map(({ part, holds }) => (
           <li key={part} class="line">
             <span class={holds ? "good" : "bad"} aria-hidden="true">
-              {holds ? words.holdsSign : words.holdsNotSign}
+              {holds ? t("claims.holdsSign") : t("claims.holdsNotSign")}
             </span>
-            {words.parts[part]}
+            {t(`claims.parts.${part}`)}
             <strong class={`end ${holds ? "good" : "bad"}`}>
-              {holds ? words.holds : words.holdsNot}
+              {holds ? t("claims.holds") : t("claims.holdsNot")}
             </strong>
           </li>
         ))}
       </ul>
       <p class="small">
         <strong class={areAll ? "good" : "bad"}>
-          {areAll ? words.overall.holds : words.overall.fails}
+          {areAll ? t("claims.overall.holds") : t("claims.overall.fails")}
         </strong>{" "}
-        {words.sizes}
+        {t("claims.sizes")}
       </p>
     </section>
   );
@@ -105,8 +108,8 @@ export function Claims() {
   const isRunning = now !== null && now.result === null && now.problem === "";
   return (
     <div class="stack">
-      <h3>{words.heading}</h3>
-      <p class="hint">{words.explanation}</p>
+      <h3>{t("claims.heading")}</h3>
+      <p class="hint">{t("claims.explanation")}</p>
       <div class="row">
         {FIGURES.map((figure) => (
           <button
@@ -117,12 +120,14 @@ export function Claims() {
             disabled={isRunning}
             onClick={() => void check(figure)}
           >
-            {words.check(text.figures.name[figure])}
+            {t("claims.check", { figure: t(`figures.name.${figure}`) })}
           </button>
         ))}
       </div>
-      {isRunning && <p role="status">{words.running(text.figures.name[now.figure])}</p>}
-      <ErrorLine>{now?.problem ? words.failed(now.problem) : ""}</ErrorLine>
+      {isRunning && (
+        <p role="status">{t("claims.running", { figure: t(`figures.name.${now.figure}`) })}</p>
+      )}
+      <ErrorLine>{now?.problem ? t("claims.failed", { why: now.problem }) : ""}</ErrorLine>
       {now?.result && <Result figure={now.figure} result={now.result} />}
     </div>
   );

@@ -1,4 +1,4 @@
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { toDegrees } from "../../core/units";
 import type { ErrorHistory } from "./outcome";
 
@@ -43,7 +43,7 @@ export function ErrorPlot({ course }: { course: ErrorHistory }) {
       class="drawing sunken course"
       viewBox={`0 0 ${WIDTH} ${HEIGHT}`}
       role="img"
-      aria-label={text.claims.curve}
+      aria-label={t("claims.curve")}
     >
       {[-4, -2, 0, 2].map((decade) => (
         <g key={decade}>
@@ -55,20 +55,20 @@ export function ErrorPlot({ course }: { course: ErrorHistory }) {
       ))}
       {[0, 5, 10, 15, 20].map((time) => (
         <text key={time} x={xOf(time)} y={HEIGHT - 3} text-anchor="middle">
-          {text.plots.seconds(time)}
+          {t("plots.seconds", { seconds: time })}
         </text>
       ))}
       <path class="course-load" d={`M${xOf(LOAD_S)} ${TOP}V${HEIGHT - BOTTOM}`} />
       <text class="course-event" x={xOf(LOAD_S) + 4} y={TOP + 10}>
-        {text.claims.loadMark}
+        {t("claims.loadMark")}
       </text>
       <polyline class="course-fl" points={envelope(course.timeS, fl)} />
       <polyline class="course-ndobc" points={envelope(course.timeS, ndobc)} />
       <text class="course-event" x={WIDTH - RIGHT - 2} y={yOf(12) - 5} text-anchor="end">
-        {text.controller.fl}
+        {t("controller.fl")}
       </text>
       <text class="course-event" x={WIDTH - RIGHT - 2} y={yOf(0.002) - 6} text-anchor="end">
-        {text.controller.ndobc}
+        {t("controller.ndobc")}
       </text>
     </svg>
   );

@@ -3,7 +3,7 @@ import { useEffect } from "preact/hooks";
 import type { Step } from "../../core/api/course";
 import { mayCommand } from "../../core/state/control";
 import { bench, session } from "../../core/state/session";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { Banner } from "../../core/widgets/banner";
 import { Problem } from "../../core/widgets/form";
 import { isSwitchHeld } from "../../hardware/hold";
@@ -14,22 +14,20 @@ import { CutOff, Obstacle } from "./obstacle";
 import { Results } from "./results";
 import { CONTROL_OF_LESSON, follow, resultsOf, resume, run, setUp, stepRun } from "./steprun";
 
-const words = text.lesson;
-
 /**
  * In the lab: shows that the settings are those of an exercise, with a button for the earlier ones.
  */
 export function ExerciseBanner({ exercise }: { exercise: string }) {
   return (
-    <Banner look="is-news" words={words.hasSettings}>
-      <PlaceLink to={{ kind: "learn", exercise, step: "" }}>{words.resume}</PlaceLink>
+    <Banner look="is-news" words={t("lesson.hasSettings")}>
+      <PlaceLink to={{ kind: "learn", exercise, step: "" }}>{t("lesson.resume")}</PlaceLink>
       <button
         type="button"
         class="button"
         disabled={!mayCommand.value}
         onClick={() => void restoreLab()}
       >
-        {words.restore}
+        {t("lesson.restore")}
       </button>
     </Banner>
   );
@@ -40,10 +38,21 @@ function ManualLoads({ of }: { of: Step }) {
   const now = bench.value;
   const state = session.value;
   if (now === null || of.bench === null || of.bench.manual_loads.length === 0) return null;
-  if (now.emulated) return <p class="hint">{words.loadOfEmulator}</p>;
+  if (now.emulated) return <p class="hint">{t("lesson.loadOfEmulator")}</p>;
   const { manual_load: what, manual_loads: loads } = of.bench;
   if (stepRun.value.active?.step !== of.name) {
-    return <p class="hint">{words.manualLoads(what, loads)}</p>;
+    return (
+      <p class="hint">
+        {t("lesson.manualLoads", {
+          what,
+          times: loads
+            .map(({ time_s: time, is_on: isOn }) =>
+              isOn ? t("lesson.loadOn", { time }) : t("lesson.loadOff", { time }),
+            )
+            .join(", "),
+        })}
+      </p>
+    );
   }
   const timeS = state?.time_s ?? 0;
   const due = dueManualLoad(of, timeS);
@@ -52,8 +61,12 @@ function ManualLoads({ of }: { of: Step }) {
   return (
     <p class={`note is-accent ${isDue ? "strong" : ""}`} aria-live="assertive">
       {isDue
-        ? words.manualLoadNow(what, due.is_on)
-        : words.manualLoadAt(what, due.is_on, due.time_s)}
+        ? due.is_on
+          ? t("lesson.manualLoadNow", { what })
+          : t("lesson.manualRemovalNow")
+        : due.is_on
+          ? t("lesson.manualLoadAt", { time: due.time_s, what })
+          : t("lesson.manualRemovalAt", { time: due.time_s })}
     </p>
   );
 }
@@ -65,7 +78,12 @@ function Running({ of }: { of: Step }) {
   const state = session.value;
   return (
     <p class="note is-accent" role="status">
-      {now.isAssessing ? words.judging : words.seconds(state?.time_s ?? 0, now.endS)}
+      {now.isAssessing
+        ? t("lesson.judging")
+        : t("lesson.seconds", {
+            now: Math.min(state?.time_s ?? 0, now.endS).toFixed(1),
+            end: now.endS,
+          })}
     </p>
   );
 }
@@ -103,7 +121,7 @@ export function Trial({ of, exercise, onDone }: TaskProps) {
     <>
       {criteria.length > 0 && (
         <>
-          <h4>{words.asked}</h4>
+          <h4>{t("lesson.asked")}</h4>
           <ul class="bullets small">
             {criteria.map((criterion) => (
               <li key={criterion}>{criterion}</li>
@@ -113,13 +131,15 @@ export function Trial({ of, exercise, onDone }: TaskProps) {
       )}
       {isFree && (
         <p class="hint">
-          {words.free(of.free.map((name) => words.freeNames[name] ?? name).join(", "))}
+          {t("lesson.free", {
+            what: of.free.map((name) => t(`lesson.freeNames.${name}`) ?? name).join(", "),
+          })}
         </p>
       )}
       {missing !== undefined && (
         <p class="note">
           <PlaceLink to={{ kind: "learn", exercise: exercise.name, step: missing.name }}>
-            {words.predictFirst(missing.title)}
+            {t("lesson.predictFirst", { step: missing.title })}
           </PlaceLink>
         </p>
       )}
@@ -130,21 +150,21 @@ export function Trial({ of, exercise, onDone }: TaskProps) {
         <button
           type="button"
           class={isFree && of.begun ? "button" : "button is-primary"}
-          title={words.setUpHint}
+          title={t("lesson.setUpHint")}
           disabled={isOff || !(isFree ? mayBeSet : mayRun)}
           onClick={() => void setUp(of)}
         >
-          {isFree ? words.setUp : of.begun ? words.again : words.setUpAndRun}
+          {isFree ? t("lesson.setUp") : of.begun ? t("lesson.again") : t("lesson.setUpAndRun")}
         </button>
         {isFree && (
           <button
             type="button"
             class="button is-primary"
-            title={words.runHint}
+            title={t("lesson.runHint")}
             disabled={isOff || !mayRun || !of.begun}
             onClick={() => void run(of)}
           >
-            {words.run}
+            {t("lesson.run")}
           </button>
         )}
       </p>

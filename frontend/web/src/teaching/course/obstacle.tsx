@@ -11,13 +11,11 @@ import {
   requestControl,
 } from "../../core/state/control";
 import { bench, isLive, session } from "../../core/state/session";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { isSwitchHeld } from "../../hardware/hold";
 import { PrivateSessionButton } from "../../lab/lease/privatesession";
 import { isOfSession, isPossibleOn, readinessOf } from "./benchstep";
 import { stepRun } from "./steprun";
-
-const words = text.lesson;
 
 /** The user in control, and this user's place in the queue, which the user can leave. */
 function Turn() {
@@ -27,8 +25,11 @@ function Turn() {
   return (
     <>
       <p role="status">
-        {other === null ? words.unheld : words.held(other)}{" "}
-        {place !== null && text.classroom.placeText(place, inTurn?.waiting.length ?? 0)}
+        {other === null ? t("lesson.unheld") : t("lesson.held", { name: other })}{" "}
+        {place !== null &&
+          (place === 1
+            ? t("classroom.next")
+            : t("classroom.placeText", { place, total: inTurn?.waiting.length ?? 0 }))}
       </p>
       {!isObserver.value && (
         <button
@@ -37,10 +38,10 @@ function Turn() {
           onClick={() => (place === null ? requestControl() : void releaseControl())}
         >
           {place !== null
-            ? text.control.leaveQueue
+            ? t("control.leaveQueue")
             : inTurn !== null && !isInstructor.value
-              ? words.ask
-              : text.control.take}
+              ? t("lesson.ask")
+              : t("control.take")}
         </button>
       )}
       <PrivateSessionButton />
@@ -54,7 +55,8 @@ export function CutOff({ of }: { of: Step }) {
   if (last?.step !== of.name) return null;
   return (
     <p class="note is-bad" role="alert">
-      {words.cut[last.why](last.timeS.toFixed(1))} {words.cutAgain}
+      {((time: string) => t(`lesson.cut.${last.why}`, { time }))(last.timeS.toFixed(1))}{" "}
+      {t("lesson.cutAgain")}
     </p>
   );
 }
@@ -65,9 +67,9 @@ export function Obstacle({ of }: { of: Step }) {
   if (!isOfSession(of, session.value)) {
     return (
       <div class="note row">
-        <p>{of.arm === "" ? words.jointOnly : words.armOnly}</p>
+        <p>{of.arm === "" ? t("lesson.jointOnly") : t("lesson.armOnly")}</p>
         <button type="button" class="button" onClick={() => void openOwnSession(of.arm)}>
-          {of.arm === "" ? words.openJoint : words.openArm}
+          {of.arm === "" ? t("lesson.openJoint") : t("lesson.openArm")}
         </button>
       </div>
     );
@@ -75,7 +77,7 @@ export function Obstacle({ of }: { of: Step }) {
   if (!isPossibleOn(of, now)) {
     return (
       <div class="note row">
-        <p>{words.simulatedOnly}</p>
+        <p>{t("lesson.simulatedOnly")}</p>
         <PrivateSessionButton />
       </div>
     );
@@ -92,7 +94,7 @@ export function Obstacle({ of }: { of: Step }) {
   return (
     <div class="note row">
       <p role="status">
-        <strong>{words.before}</strong> {text.bench.advice[before]} {words.above}
+        <strong>{t("lesson.before")}</strong> {t(`bench.advice.${before}`)} {t("lesson.above")}
       </p>
       <PrivateSessionButton />
     </div>

@@ -1,11 +1,9 @@
 /** The student's own law: a file or text, tried at once, and stored until it is submitted. */
 import { useMemo, useState } from "preact/hooks";
 import type { Exercise } from "../../core/api/course";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { findFault, LawText } from "../../core/widgets/lawtext";
 import { isBusy, tryLaw } from "./lesson";
-
-const words = text.lesson.law;
 
 const TONES: Readonly<Record<string, string>> = { held: "is-good", failed: "is-bad" };
 
@@ -17,11 +15,11 @@ function Trial({ savedLaw }: { savedLaw: NonNullable<Exercise["law"]> }) {
   return (
     <div class={`note stack small ${TONES[savedLaw.verdict] ?? "is-warn"}`}>
       <p>
-        <strong>{words.verdicts[savedLaw.verdict]}.</strong> {savedLaw.feedback}
+        <strong>{t(`lesson.law.verdicts.${savedLaw.verdict}`)}.</strong> {savedLaw.feedback}
       </p>
       {savedLaw.output.trim() !== "" && (
         <>
-          <h4>{words.output}</h4>
+          <h4>{t("lesson.law.output")}</h4>
           <pre>{savedLaw.output.trim()}</pre>
         </>
       )}
@@ -36,7 +34,7 @@ export function OwnLaw({ savedLaw, html }: { savedLaw: Exercise["law"]; html: st
   return (
     <form
       class="stack lesson-form"
-      aria-label={words.label}
+      aria-label={t("lesson.law.label")}
       onSubmit={async (event) => {
         event.preventDefault();
         setTrying(true);
@@ -44,19 +42,21 @@ export function OwnLaw({ savedLaw, html }: { savedLaw: Exercise["law"]; html: st
         setTrying(false);
       }}
     >
-      <LawText law={law} onLaw={setLaw} start={start} startWord={words.start} />
+      <LawText law={law} onLaw={setLaw} start={start} startWord={t("lesson.law.start")} />
       <button
         type="submit"
         class="button is-primary"
-        title={words.tryHint}
+        title={t("lesson.law.tryHint")}
         disabled={law.trim() === "" || findFault(law) !== "" || isBusy.value !== ""}
       >
-        {words.try}
+        {t("lesson.law.try")}
       </button>
       <div class="block stack" role="status">
-        {isTrying && <p class="note is-accent">{words.trying}</p>}
+        {isTrying && <p class="note is-accent">{t("lesson.law.trying")}</p>}
         {!isTrying && savedLaw && <Trial savedLaw={savedLaw} />}
-        {!isTrying && savedLaw && savedLaw.text !== law && <p class="hint">{words.changed}</p>}
+        {!isTrying && savedLaw && savedLaw.text !== law && (
+          <p class="hint">{t("lesson.law.changed")}</p>
+        )}
       </div>
     </form>
   );

@@ -2,38 +2,38 @@ import { useEffect } from "preact/hooks";
 import type { ExerciseSummary } from "../../core/api/course";
 import { EquationCard } from "../../core/equations/equation";
 import { TOPICS, type Topic } from "../../core/equations/equations";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { Page } from "../../core/widgets/pagelayout";
 import { goTo, PlaceLink } from "../../runs/list/place";
 import { Claims } from "./claims";
 import { exercises, openCourse, problem } from "./lesson";
 import { startTour } from "./tour";
 
-const words = text.learning;
-const lesson = text.lesson;
-
 function ExerciseCard({ of }: { of: ExerciseSummary }) {
   const isDone = of.submitted_at !== null;
-  const word = isDone ? lesson.look : of.done > 0 ? lesson.goOn : lesson.begin;
+  const word = isDone ? t("lesson.look") : of.done > 0 ? t("lesson.goOn") : t("lesson.begin");
   return (
     <li class="surface card column exercise-card">
       <p class="hint">
-        {lesson.exercise(of.number)} · {lesson.minutes(of.minutes)} ·{" "}
-        {lesson.pointsAndLaw(of.max_points, of.law_points)}
+        {t("lesson.exercise", { number: of.number })} ·{" "}
+        {t("lesson.minutes", { minutes: of.minutes })} ·{" "}
+        {of.law_points > 0
+          ? t("lesson.pointsAndLaw", { points: of.max_points, law: of.law_points })
+          : t("lesson.points", { count: of.max_points })}
       </p>
       <h4>{of.title}</h4>
       <p translate>{of.goal}</p>
       <progress
         value={of.done}
         max={of.steps}
-        aria-label={`${lesson.progress}: ${of.title}`}
-        title={lesson.done(of.done, of.steps)}
+        aria-label={`${t("lesson.progress")}: ${of.title}`}
+        title={t("lesson.done", { done: of.done, all: of.steps })}
       />
       <p class="spread hint">
         <span>
           {isDone
-            ? lesson.submitted(of.points ?? 0, of.max_points)
-            : lesson.done(of.done, of.steps)}
+            ? t("lesson.submitted", { points: of.points ?? 0, most: of.max_points })
+            : t("lesson.done", { done: of.done, all: of.steps })}
         </span>
         <PlaceLink
           class={isDone ? "button" : "button is-primary"}
@@ -55,8 +55,8 @@ export function LearnPage() {
   }, []);
   return (
     <Page
-      title={words.title}
-      lead={words.lead}
+      title={t("learning.title")}
+      lead={t("learning.lead")}
       problem={problem.value}
       class="learn"
       aside={
@@ -68,13 +68,15 @@ export function LearnPage() {
             startTour();
           }}
         >
-          {text.tour.take}
+          {t("tour.take")}
         </button>
       }
     >
-      <section class="stack" aria-label={lesson.exercises}>
-        <h3>{lesson.exercises}</h3>
-        {exercises.value === null && problem.value === "" && <p class="hint">{lesson.loading}</p>}
+      <section class="stack" aria-label={t("lesson.exercises")}>
+        <h3>{t("lesson.exercises")}</h3>
+        {exercises.value === null && problem.value === "" && (
+          <p class="hint">{t("lesson.loading")}</p>
+        )}
         <ul class="cells" style={{ "--cell": "320px", gap: "var(--gap)" }}>
           {exercises.value?.map((exercise) => (
             <ExerciseCard key={exercise.name} of={exercise} />
@@ -84,11 +86,11 @@ export function LearnPage() {
       <div class="halves">
         <Claims />
         <section class="stack">
-          <h3>{words.equations}</h3>
-          <p class="hint">{words.equationsHint}</p>
+          <h3>{t("learning.equations")}</h3>
+          <p class="hint">{t("learning.equationsHint")}</p>
           {TOPICS.map((topic: Topic) => (
             <details key={topic} class="more">
-              <summary>{text.equations.topics[topic]}</summary>
+              <summary>{t(`equations.topics.${topic}`)}</summary>
               <EquationCard topic={topic} />
             </details>
           ))}

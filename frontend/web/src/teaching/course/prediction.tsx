@@ -1,11 +1,9 @@
 /** Prediction of a number before the run that it is compared with. */
 import { useState } from "preact/hooks";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { NumberField } from "../../core/widgets/numberinput";
 import { answer, type TaskProps } from "./lesson";
 import { Results } from "./results";
-
-const words = text.lesson;
 
 const formatBound = (value: number) => String(Number(value.toPrecision(6)));
 
@@ -15,17 +13,23 @@ export function Prediction({ of, exercise, onDone }: TaskProps) {
   const [isSent, setSent] = useState(false);
   const savedAnswer = of.answer;
   const judge = exercise.parts.find(({ name }) => name === of.judged_by);
-  const range = words.from(formatBound(of.low ?? 0), formatBound(of.high ?? 0), of.unit);
+  const range = t("lesson.from", {
+    low: formatBound(of.low ?? 0),
+    high: formatBound(of.high ?? 0),
+    unit: of.unit && ` ${of.unit}`,
+  });
   if (savedAnswer !== null && !isChanging) {
     return (
       <>
         <p class="note">
-          <strong>{words.kept(String(savedAnswer), of.unit)}</strong>{" "}
-          {of.is_final ? words.isKept : words.keptHint}
+          <strong>
+            {t("lesson.kept", { answer: String(savedAnswer), unit: of.unit && ` ${of.unit}` })}
+          </strong>{" "}
+          {of.is_final ? t("lesson.isKept") : t("lesson.keptHint")}
         </p>
         {!of.is_final && (
           <button type="button" class="button" onClick={() => setChanging(true)}>
-            {words.change}
+            {t("lesson.change")}
           </button>
         )}
         <Results of={of} results={of.results} run={judge?.run_id ?? null} />
@@ -56,7 +60,7 @@ export function Prediction({ of, exercise, onDone }: TaskProps) {
         below={<small>{range}</small>}
       />
       <button type="submit" class="button is-primary" disabled={isSent || draft === null}>
-        {words.keep}
+        {t("lesson.keep")}
       </button>
     </form>
   );

@@ -1,10 +1,8 @@
 /** A question with one answer, which can be given once. */
 import { useState } from "preact/hooks";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { answer, type TaskProps } from "./lesson";
 import { Results } from "./results";
-
-const words = text.lesson;
 
 export function Question({ of, onDone }: Omit<TaskProps, "exercise">) {
   const [chosen, setChosen] = useState("");
@@ -39,9 +37,9 @@ export function Question({ of, onDone }: Omit<TaskProps, "exercise">) {
       </fieldset>
       {savedAnswer === null && (
         <>
-          <small>{words.chosenOnce}</small>
+          <small>{t("lesson.chosenOnce")}</small>
           <button type="submit" class="button is-primary" disabled={chosen === "" || isSent}>
-            {words.choose}
+            {t("lesson.choose")}
           </button>
         </>
       )}

@@ -1,11 +1,10 @@
 import type { CriterionResult, Step } from "../../core/api/course";
 import { showSpan } from "../../core/plots/span";
 import { samples, session } from "../../core/state/session";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { goTo } from "../../runs/list/place";
 import { stepRun } from "./steprun";
 
-const words = text.lesson;
 const MIN_GAP_S = 0.5;
 
 const wordOf = ({ points, max_points: most }: CriterionResult) =>
@@ -36,13 +35,14 @@ export function Results({
 }) {
   if (results.length === 0) return null;
   return (
-    <section aria-label={`${words.results}: ${of.title}`}>
-      <h4>{words.results}</h4>
+    <section aria-label={`${t("lesson.results")}: ${of.title}`}>
+      <h4>{t("lesson.results")}</h4>
       <ul class="stack small">
         {results.map((result) => (
           <li key={result.name} class={`note ${TONES[wordOf(result)]}`}>
             <p>
-              <strong class="tone">{words[wordOf(result)]}</strong> <span>{result.name}</span>{" "}
+              <strong class="tone">{t(`lesson.${wordOf(result)}`)}</strong>{" "}
+              <span>{result.name}</span>{" "}
               <small>
                 {result.points} / {result.max_points}
               </small>
@@ -52,10 +52,10 @@ export function Results({
               <button
                 type="button"
                 class="button"
-                title={words.showHint}
+                title={t("lesson.showHint")}
                 onClick={() => showInPlots(run, result.time_s as number)}
               >
-                {words.show(result.time_s.toFixed(2))}
+                {t("lesson.show", { time: result.time_s.toFixed(2) })}
               </button>
             )}
           </li>

@@ -4,13 +4,11 @@ import { GRADES_PAGE, readOwnGrades, type Submission } from "../../core/api/cour
 import { explain } from "../../core/state/actions";
 import { isClass } from "../../core/state/control";
 import { personName } from "../../core/state/preferences";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { Criteria, formatPoints, VerifiedRuns } from "../../core/widgets/criteria";
 import { PlaceLink } from "../../runs/list/place";
 import { isBusy, submit, type TaskProps } from "./lesson";
 import { OwnLaw } from "./ownlaw";
-
-const words = text.lesson;
 
 export function SubmissionPanel({ of, exercise, onDone }: TaskProps) {
   const [name, setName] = useState(personName.peek());
@@ -18,8 +16,10 @@ export function SubmissionPanel({ of, exercise, onDone }: TaskProps) {
     return (
       <>
         <p class="note" role="status">
-          <strong>{words.submitted(exercise.points ?? 0, exercise.max_points)}</strong>
-          {of.law && <span>{words.law.later(exercise.law_points)}</span>}
+          <strong>
+            {t("lesson.submitted", { points: exercise.points ?? 0, most: exercise.max_points })}
+          </strong>
+          {of.law && <span>{t("lesson.law.later", { points: exercise.law_points })}</span>}
         </p>
         <OwnGrade exercise={exercise.name} />
       </>
@@ -39,12 +39,12 @@ export function SubmissionPanel({ of, exercise, onDone }: TaskProps) {
       >
         {missing.length > 0 && (
           <div class="note">
-            <p>{words.missing}</p>
+            <p>{t("lesson.missing")}</p>
             <ul class="bullets">
               {missing.map((part) => (
                 <li key={part.name}>
                   {part.name === of.name ? (
-                    words.law.tryFirst
+                    t("lesson.law.tryFirst")
                   ) : (
                     <PlaceLink to={{ kind: "learn", exercise: exercise.name, step: part.name }}>
                       {part.title}
@@ -57,7 +57,7 @@ export function SubmissionPanel({ of, exercise, onDone }: TaskProps) {
         )}
         {!isClass.value && (
           <label>
-            <span>{words.name}</span>
+            <span>{t("lesson.name")}</span>
             <input
               type="text"
               maxLength={100}
@@ -70,20 +70,18 @@ export function SubmissionPanel({ of, exercise, onDone }: TaskProps) {
         <button
           type="submit"
           class="button is-primary"
-          title={words.submitHint}
+          title={t("lesson.submitHint")}
           disabled={missing.length > 0 || isBusy.value !== ""}
         >
-          {words.submit}
+          {t("lesson.submit")}
         </button>
-        <small>{words.submitHint}</small>
+        <small>{t("lesson.submitHint")}</small>
       </form>
     </>
   );
 }
 
 // The grade of the submission, once there is one.
-
-const gradeWords = text.grades;
 
 function OwnGrade({ exercise }: { exercise: string }) {
   const [submission, setSubmission] = useState<Submission | null>(null);
@@ -109,16 +107,19 @@ function OwnGrade({ exercise }: { exercise: string }) {
     <section class="stack" aria-labelledby="lesson-grade">
       <h4 id="lesson-grade">
         {grade === null
-          ? gradeWords.noOwn
-          : gradeWords.own(formatPoints(grade.points), formatPoints(grade.max_points))}
+          ? t("grades.noOwn")
+          : t("grades.own", {
+              points: formatPoints(grade.points),
+              most: formatPoints(grade.max_points),
+            })}
       </h4>
-      {grade === null && <p class="hint">{submission.problem || gradeWords.waits}</p>}
+      {grade === null && <p class="hint">{submission.problem || t("grades.waits")}</p>}
       {grade !== null && (
         <>
           <Criteria grade={grade} />
           <VerifiedRuns grade={grade} />
           <a href={GRADES_PAGE} target="_blank" rel="noopener">
-            {gradeWords.ownPage}
+            {t("grades.ownPage")}
           </a>
         </>
       )}

@@ -4,14 +4,13 @@ import type { SessionState } from "../../core/api/types";
 import { mayCommand } from "../../core/state/control";
 import { readStored, store } from "../../core/state/preferences";
 import { session } from "../../core/state/session";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { closeOnEscape } from "../../core/widgets/panel";
 import { restoreTo } from "../../lab/design/history";
 import { hasWebGl } from "../../lab/scene/schematic";
 
 const STORE = "svsa.tour";
 const GAP_PX = 12;
-const words = text.tour;
 
 /** Each step and the part of the page that it describes; the first has none. */
 const STEPS = [
@@ -98,8 +97,7 @@ function useTargetBox(selector: string, isShown: boolean): Box | null {
 
 function Card({ index }: { index: number }) {
   const { key, target } = STEPS[index] as (typeof STEPS)[number];
-  const { title, words: explanation } =
-    key === "view" && !hasWebGl ? words.viewIn2d : words.steps[key];
+  const texts = key === "view" && !hasWebGl ? "tour.viewIn2d" : (`tour.steps.${key}` as const);
   const isFirst = index === 0;
   const isLast = index === STEPS.length - 1;
   const card = useRef<HTMLElement>(null);
@@ -129,23 +127,23 @@ function Card({ index }: { index: number }) {
           }}
         />
       )}
-      <section ref={card} class="floating stack tour" aria-label={words.label} onKeyDown={turn}>
-        <p class="hint tour-count">{words.of(index + 1, STEPS.length)}</p>
-        <h2>{title}</h2>
+      <section ref={card} class="floating stack tour" aria-label={t("tour.label")} onKeyDown={turn}>
+        <p class="hint tour-count">{t("tour.of", { step: index + 1, all: STEPS.length })}</p>
+        <h2>{t(`${texts}.title`)}</h2>
         <div aria-live="polite">
-          <p translate>{explanation}</p>
+          <p translate>{t(`${texts}.words`)}</p>
         </div>
         <div class="row">
-          <button type="button" class="quiet start" onClick={endTour} title={words.keys}>
-            {words.skip}
+          <button type="button" class="quiet start" onClick={endTour} title={t("tour.keys")}>
+            {t("tour.skip")}
           </button>
           {index > 1 && (
             <button type="button" class="button" onClick={() => go(-1)}>
-              {words.back}
+              {t("tour.back")}
             </button>
           )}
           <button ref={onward} type="button" class="button is-primary" onClick={() => go(1)}>
-            {isFirst ? words.take : isLast ? words.done : words.next}
+            {isFirst ? t("tour.take") : isLast ? t("tour.done") : t("tour.next")}
           </button>
         </div>
       </section>

@@ -1,7 +1,7 @@
 import { useEffect, useRef } from "preact/hooks";
 import type { Exercise, Step } from "../../core/api/course";
 import { Prose } from "../../core/equations/formula";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { ErrorLine } from "../../core/widgets/form";
 import { PlaceLink, place } from "../../runs/list/place";
 import { Trial } from "./experiment";
@@ -10,24 +10,22 @@ import { Prediction } from "./prediction";
 import { Question } from "./question";
 import { SubmissionPanel } from "./submission";
 
-const words = text.lesson;
-
 function Steps({ shownExercise, at }: { shownExercise: Exercise; at: Step }) {
   return (
-    <nav aria-label={words.steps}>
+    <nav aria-label={t("lesson.steps")}>
       <ol class="row lesson-steps">
         {shownExercise.parts.map((part, index) => (
           <li key={part.name} class={part.done ? "is-done" : ""}>
             <PlaceLink
               to={{ kind: "learn", exercise: shownExercise.name, step: part.name }}
               class="button is-icon"
-              title={`${words.kinds[part.kind]}: ${part.title}`}
+              title={`${t(`lesson.kinds.${part.kind}`)}: ${part.title}`}
               isHere={part.name === at.name}
             >
               <span aria-hidden="true">{part.done ? "✓" : index + 1}</span>
               <span class="visually-hidden">
-                {words.kinds[part.kind]}: {part.title}
-                {part.done && `, ${words.stepDone}`}
+                {t(`lesson.kinds.${part.kind}`)}: {part.title}
+                {part.done && `, ${t("lesson.stepDone")}`}
               </span>
             </PlaceLink>
           </li>
@@ -64,10 +62,10 @@ function Turn({ shownExercise, at }: { shownExercise: Exercise; at: Step }) {
     );
   return (
     <p class="spread divided">
-      {link(shownExercise.parts[index - 1], `← ${words.previous}`, "button")}
+      {link(shownExercise.parts[index - 1], `← ${t("lesson.previous")}`, "button")}
       {link(
         shownExercise.parts[index + 1],
-        `${words.next} →`,
+        `${t("lesson.next")} →`,
         at.done || at.kind === "read" ? "button is-primary" : "button",
       )}
     </p>
@@ -91,13 +89,21 @@ export function Lesson({ name }: { name: string }) {
     if (place.peek() !== asLoaded) heading.current?.focus();
   }, [name, here]);
   return (
-    <section class="surface stack lesson" aria-label={words.label(shownExercise?.title ?? name)}>
+    <section
+      class="surface stack lesson"
+      aria-label={t("lesson.label", { title: shownExercise?.title ?? name })}
+    >
       <p class="spread hint">
-        <PlaceLink to={{ kind: "learn", exercise: "", step: "" }}>← {words.all}</PlaceLink>
+        <PlaceLink to={{ kind: "learn", exercise: "", step: "" }}>← {t("lesson.all")}</PlaceLink>
         {shownExercise && (
           <span>
-            {words.exercise(shownExercise.number)} ·{" "}
-            {words.pointsAndLaw(shownExercise.max_points, shownExercise.law_points)}
+            {t("lesson.exercise", { number: shownExercise.number })} ·{" "}
+            {shownExercise.law_points > 0
+              ? t("lesson.pointsAndLaw", {
+                  points: shownExercise.max_points,
+                  law: shownExercise.law_points,
+                })
+              : t("lesson.points", { count: shownExercise.max_points })}
           </span>
         )}
       </p>
@@ -107,28 +113,30 @@ export function Lesson({ name }: { name: string }) {
           <progress
             value={shownExercise.done}
             max={shownExercise.steps}
-            aria-label={words.progress}
-            title={words.done(shownExercise.done, shownExercise.steps)}
+            aria-label={t("lesson.progress")}
+            title={t("lesson.done", { done: shownExercise.done, all: shownExercise.steps })}
           />
           <Steps shownExercise={shownExercise} at={at} />
           {at === shownExercise.parts[0] && (
             <div class="stack">
               <p translate>
-                <strong>{words.goal}:</strong> {shownExercise.goal}
+                <strong>{t("lesson.goal")}:</strong> {shownExercise.goal}
               </p>
               <Prose html={shownExercise.html} />
             </div>
           )}
           <h3 class="line" ref={heading} tabIndex={-1}>
-            <small class="tag tone is-accent">{words.kinds[at.kind]}</small> {at.title}
-            {at.max_points > 0 && <small class="rigid end">{words.points(at.max_points)}</small>}
+            <small class="tag tone is-accent">{t(`lesson.kinds.${at.kind}`)}</small> {at.title}
+            {at.max_points > 0 && (
+              <small class="rigid end">{t("lesson.points", { count: at.max_points })}</small>
+            )}
           </h3>
           <Prose html={at.html} />
           <Task shownExercise={shownExercise} at={at} />
           <Turn shownExercise={shownExercise} at={at} />
         </>
       ) : (
-        problem.value === "" && <p class="hint">{words.loading}</p>
+        problem.value === "" && <p class="hint">{t("lesson.loading")}</p>
       )}
       <ErrorLine>{problem.value}</ErrorLine>
     </section>

@@ -7,7 +7,7 @@ import {
   type Submission,
 } from "../../core/api/course";
 import { isJobRunning, JobProgress } from "../../core/jobs/progress";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { Criteria, formatPoints, VerifiedRuns } from "../../core/widgets/criteria";
 import { Page } from "../../core/widgets/pagelayout";
 import {
@@ -26,17 +26,19 @@ import {
   ungraded,
 } from "./grades";
 
-const words = text.grades;
-
 /** Cell of a submission in the table. */
 function describeSubmission({ grade, problem: why }: Submission): string {
-  if (grade !== null) return words.of(formatPoints(grade.points), formatPoints(grade.max_points));
-  return why === "" ? words.ungraded : words.refused;
+  if (grade !== null)
+    return t("grades.of", {
+      points: formatPoints(grade.points),
+      most: formatPoints(grade.max_points),
+    });
+  return why === "" ? t("grades.ungraded") : t("grades.refused");
 }
 
 function Cell({ student, exercise }: { student: Student; exercise: string }) {
   const submission = submissionOf(student, exercise);
-  if (submission === undefined) return <td class="muted">{words.nothing}</td>;
+  if (submission === undefined) return <td class="muted">{t("grades.nothing")}</td>;
   const at = selection.value;
   const isShown = at?.person === student.person && at.exercise === exercise;
   return (
@@ -58,18 +60,18 @@ function Cell({ student, exercise }: { student: Student; exercise: string }) {
 /** One row per student, one column per exercise; a click on a number shows it by criterion. */
 function Table() {
   return (
-    <section class="surface card scroll" aria-label={words.table}>
+    <section class="surface card scroll" aria-label={t("grades.table")}>
       <table class="table grades-table">
-        <caption class="visually-hidden">{words.tableHint}</caption>
+        <caption class="visually-hidden">{t("grades.tableHint")}</caption>
         <thead>
           <tr>
-            <th scope="col">{words.student}</th>
+            <th scope="col">{t("grades.student")}</th>
             {columns.value.map((exercise) => (
               <th key={exercise.name} scope="col">
                 {exercise.number}. {exercise.title}
               </th>
             ))}
-            <th scope="col">{words.sum}</th>
+            <th scope="col">{t("grades.sum")}</th>
           </tr>
         </thead>
         <tbody>
@@ -82,7 +84,7 @@ function Table() {
                     href={pageOfStudent(student.person)}
                     target="_blank"
                     rel="noopener"
-                    title={words.report(student.name)}
+                    title={t("grades.report", { name: student.name })}
                   >
                     {student.name}
                   </a>
@@ -94,7 +96,10 @@ function Table() {
                 <td>
                   {sum === null
                     ? "–"
-                    : words.of(formatPoints(sum.points), formatPoints(sum.maximum))}
+                    : t("grades.of", {
+                        points: formatPoints(sum.points),
+                        most: formatPoints(sum.maximum),
+                      })}
                 </td>
               </tr>
             );
@@ -108,7 +113,7 @@ function Table() {
 /** One grade by criterion, or the reason why there is none. */
 function SelectedGrade() {
   const now = selectedSubmission.value;
-  if (now === null) return <p class="hint">{words.pick}</p>;
+  if (now === null) return <p class="hint">{t("grades.pick")}</p>;
   const { student, submission } = now;
   const { grade } = submission;
   const exercise = grades.value?.exercises.find(({ name }) => name === submission.exercise);
@@ -119,17 +124,26 @@ function SelectedGrade() {
       </h3>
       {submission.problem !== "" && (
         <p class="problem">
-          {grade === null ? words.noGrade : words.keptGrade} {submission.problem}
+          {grade === null ? t("grades.noGrade") : t("grades.keptGrade")} {submission.problem}
         </p>
       )}
       {grade === null ? (
-        submission.problem === "" && <p>{words.notYet}</p>
+        submission.problem === "" && <p>{t("grades.notYet")}</p>
       ) : (
         <>
           <Criteria grade={grade} />
           <VerifiedRuns grade={grade} />
           <p class="hint breaks">
-            {words.made(grade.submission.slice(0, 12), grade.seed ?? null, grade.version)}
+            {grade.seed == null
+              ? t("grades.made", {
+                  submission: grade.submission.slice(0, 12),
+                  version: grade.version,
+                })
+              : t("grades.madeSeeded", {
+                  submission: grade.submission.slice(0, 12),
+                  seed: grade.seed,
+                  version: grade.version,
+                })}
           </p>
         </>
       )}
@@ -146,32 +160,34 @@ function Acts() {
         type="button"
         class="button is-primary"
         disabled={isBusy || ungraded.value === 0}
-        title={words.gradeHint}
+        title={t("grades.gradeHint")}
         onClick={() => void gradeAll(false)}
       >
-        {words.grade(ungraded.value)}
+        {ungraded.value === 0
+          ? t("grades.allGraded")
+          : t("grades.grade", { ungraded: ungraded.value })}
       </button>
       <button
         type="button"
         class="button"
         disabled={isBusy}
-        title={words.againHint}
+        title={t("grades.againHint")}
         onClick={() => void gradeAll(true)}
       >
-        {words.again}
+        {t("grades.again")}
       </button>
       <a class="button" href={GRADES_CSV} download="grades.csv">
-        {words.csv}
+        {t("grades.csv")}
       </a>
       <a class="button" href={GRADES_PAGE} target="_blank" rel="noopener">
-        {words.page}
+        {t("grades.page")}
       </a>
       {now !== null && (
         <JobProgress
           job={now}
-          done={words.graded(now.done, now.total)}
+          done={t("grades.graded", { done: now.done, total: now.total || "…" })}
           total={now.total || 1}
-          label={words.grading}
+          label={t("grades.grading")}
           onCancel={() => void cancel()}
         />
       )}
@@ -187,18 +203,18 @@ export function GradesPage() {
   }, []);
   const classGrades = grades.value;
   return (
-    <Page title={words.title} lead={words.lead} problem={problem.value}>
+    <Page title={t("grades.title")} lead={t("grades.lead")} problem={problem.value}>
       {classGrades?.not_isolated && (
         <p class="surface card problem">
-          {words.notIsolated} {classGrades.not_isolated}
+          {t("grades.notIsolated")} {classGrades.not_isolated}
         </p>
       )}
       {classGrades === null ? (
-        problem.value === "" && <p class="hint">{words.loading}</p>
+        problem.value === "" && <p class="hint">{t("grades.loading")}</p>
       ) : classGrades.students.length === 0 ? (
         <section class="surface card">
-          <h3>{words.empty}</h3>
-          <p translate>{words.emptyHint}</p>
+          <h3>{t("grades.empty")}</h3>
+          <p translate>{t("grades.emptyHint")}</p>
         </section>
       ) : (
         <>

@@ -1,13 +1,10 @@
 /** The columns of the leaderboard: content and sort key. */
 import type { BoardEntry } from "../../core/api/ranking";
 import { titleOf } from "../../core/state/laws";
-import { text } from "../../core/text/en";
 import { type SortColumn, sortBy } from "../../core/widgets/tables";
 
-const words = text.leaderboard.columns;
-
 export interface Column extends SortColumn {
-  key: keyof typeof words;
+  key: "rank" | "law" | "success" | "ended" | "rms" | "cost" | "worst" | "entered";
   read: (entry: BoardEntry) => number | string | null;
 }
 

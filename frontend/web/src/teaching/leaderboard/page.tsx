@@ -1,5 +1,5 @@
 import { useEffect } from "preact/hooks";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { ErrorLine } from "../../core/widgets/form";
 import { Example, PageWithForm } from "../../core/widgets/pagelayout";
 import { COLUMNS } from "../../evaluation/ranking/columns";
@@ -13,8 +13,6 @@ import { Start } from "./start";
 import { BoardTable } from "./table";
 import { WorstRun } from "./worst";
 
-const words = text.leaderboard;
-
 const PUBLISHED = new Set(["rank", "familyA", "familyB", "load"]);
 
 /** The ranking that comes with the lab; it has no season. */
@@ -23,9 +21,9 @@ function Published() {
   return (
     <section class="stack" aria-labelledby="board-published">
       <h3 id="board-published">
-        <Example /> {words.published}
+        <Example /> {t("leaderboard.published")}
       </h3>
-      <p class="hint">{words.publishedHint}</p>
+      <p class="hint">{t("leaderboard.publishedHint")}</p>
       <ErrorLine>{rankingProblem.value}</ErrorLine>
       {results.value !== null && (
         <>
@@ -40,8 +38,8 @@ function Published() {
 /** Instructions for a leaderboard without entries. */
 const Empty = () => (
   <section class="surface card" aria-labelledby="board-empty">
-    <h3 id="board-empty">{words.empty}</h3>
-    <p translate>{words.emptyHint}</p>
+    <h3 id="board-empty">{t("leaderboard.empty")}</h3>
+    <p translate>{t("leaderboard.emptyHint")}</p>
   </section>
 );
 
@@ -54,7 +52,7 @@ export function LeaderboardPage() {
   }, []);
   if (at.kind === "leaderboard" && at.entry !== "") {
     return (
-      <main class="page is-run" aria-label={words.title}>
+      <main class="page is-run" aria-label={t("leaderboard.title")}>
         <ErrorLine>{problem.value}</ErrorLine>
         <WorstRun />
       </main>
@@ -64,17 +62,17 @@ export function LeaderboardPage() {
   const hasOwn = leaderboard?.entries.some((entry) => !entry.is_installed) ?? false;
   return (
     <PageWithForm
-      title={words.title}
+      title={t("leaderboard.title")}
       lead={
         leaderboard?.began == null
-          ? words.lead
-          : `${words.lead} ${words.season(formatMoment(leaderboard.began), leaderboard.suite)}`
+          ? t("leaderboard.lead")
+          : `${t("leaderboard.lead")} ${t("leaderboard.season", { began: formatMoment(leaderboard.began), suite: leaderboard.suite })}`
       }
       problem={problem.value}
       side={<Start />}
     >
       {leaderboard === null ? (
-        <p class="hint">{problem.value === "" && words.loading}</p>
+        <p class="hint">{problem.value === "" && t("leaderboard.loading")}</p>
       ) : (
         <div class="stack">
           {!hasOwn && <Empty />}

@@ -2,7 +2,7 @@ import { useEffect, useRef, useState } from "preact/hooks";
 import { isJobRunning, JobProgress } from "../../core/jobs/progress";
 import { isClass, mayCall } from "../../core/state/control";
 import { personName, setPersonName } from "../../core/state/preferences";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { findFault, LawText } from "../../core/widgets/lawtext";
 import EXAMPLE from "./example.py?raw";
 import {
@@ -17,7 +17,6 @@ import {
   submit,
 } from "./leaderboard";
 
-const words = text.leaderboard;
 const LONGEST_NAME = 60;
 const ENDING = /\.py$/i;
 
@@ -34,20 +33,20 @@ function Progress() {
     <div ref={box} class="surface card">
       <h3>
         {isJobRunning(now) && !hasSubmittedEntry.value
-          ? words.measuring(now.title)
-          : words.measured(now.title)}
+          ? t("leaderboard.measuring", { title: now.title })
+          : t("leaderboard.measured", { title: now.title })}
       </h3>
-      {hasSubmittedEntry.value && <p class="hint">{words.labFollows}</p>}
+      {hasSubmittedEntry.value && <p class="hint">{t("leaderboard.labFollows")}</p>}
       {failed ? (
         <p class="problem as-written" role="alert">
-          <strong>{words.failed}</strong> {now.problem} {words.failedHint}
+          <strong>{t("leaderboard.failed")}</strong> {now.problem} {t("leaderboard.failedHint")}
         </p>
       ) : (
         <JobProgress
           job={now}
-          done={words.runs(now.done, now.total)}
+          done={t("leaderboard.runs", { done: now.done, total: now.total || "…" })}
           total={now.total || 1}
-          label={words.measuring(now.title)}
+          label={t("leaderboard.measuring", { title: now.title })}
           onCancel={() => void cancel()}
         />
       )}
@@ -63,6 +62,7 @@ function Form() {
   const nameBy = (file: string) => {
     if (name === "") setName(file.replace(ENDING, "").slice(0, LONGEST_NAME));
   };
+  const existing = entries.value.find(({ key }) => key === existingEntryKey.value);
   return (
     <form
       class="surface card stack form"
@@ -72,10 +72,10 @@ function Form() {
         void submit({ name, author, law });
       }}
     >
-      <h3>{words.submit}</h3>
-      <p class="hint">{words.submitHint(board.value?.runs ?? 0)}</p>
+      <h3>{t("leaderboard.submit")}</h3>
+      <p class="hint">{t("leaderboard.submitHint", { runs: board.value?.runs ?? 0 })}</p>
       <label>
-        <span>{words.name}</span>
+        <span>{t("leaderboard.name")}</span>
         <input
           type="text"
           required
@@ -86,7 +86,7 @@ function Form() {
       </label>
       {!isClass.value && (
         <label>
-          <span>{words.author}</span>
+          <span>{t("leaderboard.author")}</span>
           <input
             type="text"
             maxLength={LONGEST_NAME}
@@ -96,8 +96,14 @@ function Form() {
           />
         </label>
       )}
-      <LawText law={law} onLaw={setLaw} onFile={nameBy} start={EXAMPLE} startWord={words.example} />
-      <p class="hint">{words.law}</p>
+      <LawText
+        law={law}
+        onLaw={setLaw}
+        onFile={nameBy}
+        start={EXAMPLE}
+        startWord={t("leaderboard.example")}
+      />
+      <p class="hint">{t("leaderboard.law")}</p>
       <div class="row">
         <button
           type="submit"
@@ -109,12 +115,12 @@ function Form() {
             isJobRunning(job.value)
           }
         >
-          {words.send}
+          {t("leaderboard.send")}
         </button>
       </div>
       <p role="status" hidden={existingEntryKey.value === ""}>
         {existingEntryKey.value !== "" &&
-          words.known(entries.value.find((entry) => entry.key === existingEntryKey.value)?.name)}
+          (existing ? t("leaderboard.knownAs", { name: existing.name }) : t("leaderboard.known"))}
       </p>
     </form>
   );
@@ -130,33 +136,33 @@ export function Start() {
       <Progress />
       {now.not_isolated !== null ? (
         <div class="surface card">
-          <h3>{words.submit}</h3>
-          <p class="problem">{words.notIsolated}</p>
+          <h3>{t("leaderboard.submit")}</h3>
+          <p class="problem">{t("leaderboard.notIsolated")}</p>
           <p class="hint">{now.not_isolated}</p>
         </div>
       ) : !mayCall("post", "/leaderboard/submissions") ? (
-        <p class="surface card hint">{words.observer}</p>
+        <p class="surface card hint">{t("leaderboard.observer")}</p>
       ) : (
         <Form />
       )}
       {isMissing && mayCall("post", "/leaderboard/laws") && (
         <div class="surface card">
-          <h3>{words.lab}</h3>
-          <p class="hint">{words.missing(now.missing.length)}</p>
+          <h3>{t("leaderboard.lab")}</h3>
+          <p class="hint">{t("leaderboard.missing", { count: now.missing.length })}</p>
           <button
             type="button"
             class="button"
             disabled={isJobRunning(job.value)}
             onClick={() => void measureInstalledLaws()}
           >
-            {words.measureLab}
+            {t("leaderboard.measureLab")}
           </button>
         </div>
       )}
       <div class="surface card">
-        <h3>{words.script}</h3>
-        <p class="hint">{words.scriptHint}</p>
-        <pre>{words.command}</pre>
+        <h3>{t("leaderboard.script")}</h3>
+        <p class="hint">{t("leaderboard.scriptHint")}</p>
+        <pre>{t("leaderboard.command")}</pre>
       </div>
     </>
   );

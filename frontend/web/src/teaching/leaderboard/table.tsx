@@ -1,6 +1,6 @@
 import type { BoardEntry } from "../../core/api/ranking";
 import { titleOf } from "../../core/state/laws";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { formatNumber } from "../../core/units";
 import { SortHeads } from "../../core/widgets/tables";
 import { PlaceLink } from "../../runs/list/place";
@@ -8,16 +8,17 @@ import { formatMoment, formatMomentShort } from "../../runs/list/words";
 import { COLUMNS, nameOf } from "./columns";
 import { board, entries, sort, submittedKey } from "./leaderboard";
 
-const words = text.leaderboard;
-
 /** The success rate with the bounds of its interval. */
 function Success({ standing }: BoardEntry) {
   const { success, low, high, trials, trials_held } = standing;
   return (
-    <td class="number" title={words.trialsHeld(trials_held, trials)}>
-      <strong>{words.percent(success)}</strong>{" "}
-      <small title={words.intervalHint}>
-        {words.interval(words.percent(low), words.percent(high))}
+    <td class="number" title={t("leaderboard.trialsHeld", { held: trials_held, of: trials })}>
+      <strong>{t("leaderboard.percent", { share: (100 * success).toFixed(1) })}</strong>{" "}
+      <small title={t("leaderboard.intervalHint")}>
+        {t("leaderboard.interval", {
+          low: t("leaderboard.percent", { share: (100 * low).toFixed(1) }),
+          high: t("leaderboard.percent", { share: (100 * high).toFixed(1) }),
+        })}
       </small>
     </td>
   );
@@ -27,7 +28,10 @@ function Row({ entry }: { entry: BoardEntry }) {
   const { standing } = entry;
   const { worst } = standing;
   const name = nameOf(entry);
-  const error = worst.rms_deg === null ? words.ended : words.degrees(formatNumber(worst.rms_deg));
+  const error =
+    worst.rms_deg === null
+      ? t("leaderboard.ended")
+      : t("leaderboard.degrees", { error: formatNumber(worst.rms_deg) });
   const look = [
     entry.is_installed ? "is-baseline" : "",
     entry.key === submittedKey.value ? "is-mine" : "",
@@ -39,31 +43,38 @@ function Row({ entry }: { entry: BoardEntry }) {
         {name}
         <small>
           {entry.is_installed ? (
-            <span title={words.baselineHint}>{words.baseline}</span>
+            <span title={t("leaderboard.baselineHint")}>{t("leaderboard.baseline")}</span>
           ) : entry.author ? (
-            <span title={entry.person}>{words.by(entry.author)}</span>
+            <span title={entry.person}>{t("leaderboard.by", { author: entry.author })}</span>
           ) : (
-            words.submittedLaw
+            t("leaderboard.submittedLaw")
           )}
         </small>
       </th>
       <Success {...entry} />
       <td class="number">{standing.trials_ended}</td>
       <td class="number">
-        {standing.median_rms_deg === null ? words.ended : formatNumber(standing.median_rms_deg)}
+        {standing.median_rms_deg === null
+          ? t("leaderboard.ended")
+          : formatNumber(standing.median_rms_deg)}
       </td>
       <td class="number">{standing.tick_us === null ? "–" : standing.tick_us.toFixed(1)}</td>
       <td class="is-worst">
         <PlaceLink
           to={{ kind: "leaderboard", entry: entry.key }}
-          title={worst.problem || words.seeHint(name)}
+          title={worst.problem || t("leaderboard.seeHint", { name })}
         >
-          <span class="visually-hidden">{words.see(name)}</span>
+          <span class="visually-hidden">{t("leaderboard.see", { name })}</span>
           <b class={worst.rms_deg === null ? "bad" : ""}>{error}</b>{" "}
           <small class="block">{worst.title}</small>
         </PlaceLink>
       </td>
-      <td title={words.measuredWith(formatMoment(entry.entered), entry.version)}>
+      <td
+        title={t("leaderboard.measuredWith", {
+          when: formatMoment(entry.entered),
+          version: entry.version,
+        })}
+      >
         {formatMomentShort(entry.entered)}
       </td>
     </tr>
@@ -76,9 +87,9 @@ const Missing = ({ law }: { law: string }) => (
     <td class="number">–</td>
     <th scope="row" class="is-name">
       {titleOf(law)}
-      <small>{words.baseline}</small>
+      <small>{t("leaderboard.baseline")}</small>
     </th>
-    <td colSpan={COLUMNS.length - 2}>{words.notMeasured}</td>
+    <td colSpan={COLUMNS.length - 2}>{t("leaderboard.notMeasured")}</td>
   </tr>
 );
 
@@ -86,13 +97,13 @@ const Missing = ({ law }: { law: string }) => (
 export function BoardTable() {
   return (
     <section class="surface card" aria-labelledby="board-entries">
-      <h3 id="board-entries">{words.entries}</h3>
-      <section class="scroll" aria-label={words.table}>
+      <h3 id="board-entries">{t("leaderboard.entries")}</h3>
+      <section class="scroll" aria-label={t("leaderboard.table")}>
         <table class="table wide-table board-table">
-          <caption class="visually-hidden">{words.tableHint}</caption>
+          <caption class="visually-hidden">{t("leaderboard.tableHint")}</caption>
           <thead>
             <tr>
-              <SortHeads columns={COLUMNS} words={words.columns} sort={sort} />
+              <SortHeads columns={COLUMNS} words="leaderboard.columns" sort={sort} />
             </tr>
           </thead>
           <tbody>
@@ -105,7 +116,7 @@ export function BoardTable() {
           </tbody>
         </table>
       </section>
-      <p class="hint">{words.note}</p>
+      <p class="hint">{t("leaderboard.note")}</p>
     </section>
   );
 }

@@ -1,12 +1,11 @@
 import { worstRunAddress } from "../../core/api/ranking";
-import { text } from "../../core/text/en";
+import { t } from "../../core/text/t";
 import { formatNumber } from "../../core/units";
 import { PlaceLink } from "../../runs/list/place";
 import { ReplayFrame } from "../../runs/list/replayframe";
 import { nameOf } from "./columns";
 import { board, shownEntry } from "./leaderboard";
 
-const words = text.leaderboard;
 const PAPERS_LAW = "ndobc";
 const ignoreMoment = () => {};
 
@@ -15,33 +14,42 @@ export function WorstRun() {
   const entry = shownEntry.value;
   const back = (
     <PlaceLink to={{ kind: "leaderboard", entry: "" }} class="button">
-      ← {words.back}
+      ← {t("leaderboard.back")}
     </PlaceLink>
   );
   if (entry === undefined) {
     return (
       <div class="bar run-head">
         {back}
-        {board.value !== null && <p>{words.unknown}</p>}
+        {board.value !== null && <p>{t("leaderboard.unknown")}</p>}
       </div>
     );
   }
   const { worst, success } = entry.standing;
   const name = nameOf(entry);
-  const error = worst.rms_deg === null ? words.ended : words.rms(formatNumber(worst.rms_deg));
+  const error =
+    worst.rms_deg === null
+      ? t("leaderboard.ended")
+      : t("leaderboard.rms", { error: formatNumber(worst.rms_deg) });
   return (
     <>
       <div class="bar run-head">
         {back}
         <div class="grow">
-          <h2>{words.worstOf(name)}</h2>
+          <h2>{t("leaderboard.worstOf", { name })}</h2>
           <p>
             {worst.title}: <strong>{error}</strong>
             {worst.problem && ` · ${worst.problem}`} ·{" "}
-            {words.standing(entry.rank, text.leaderboard.percent(success))}
+            {t("leaderboard.standing", {
+              rank: entry.rank,
+              success: t("leaderboard.percent", { share: (100 * success).toFixed(1) }),
+            })}
           </p>
           <p class="hint">
-            {words.comparison(entry.key === PAPERS_LAW ? "FL" : "NDOBC", entry.is_installed)}
+            {t("leaderboard.comparison", {
+              law: entry.key === PAPERS_LAW ? "FL" : "NDOBC",
+              source: entry.is_installed ? t("leaderboard.again") : t("leaderboard.replayed"),
+            })}
           </p>
         </div>
       </div>

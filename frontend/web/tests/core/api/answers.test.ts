@@ -23,10 +23,9 @@ async function load(server: Server) {
   const { commandStatus } = await import("../../../src/core/api/outcome");
   const { session } = await import("../../../src/core/state/session");
   const { calls } = await import("../../../src/core/api/calls");
-  const { text } = await import("../../../src/core/text/en");
+  const { t } = await import("../../../src/core/text/t");
   session.value = { ...STATE, tick: 0, status: "paused" } as never;
-  const words = text.connection;
-  return { press: () => perform("session", start), problem, commandStatus, session, calls, words };
+  return { press: () => perform("session", start), problem, commandStatus, session, calls, t };
 }
 
 const outcome = (outcome: string, status: number | null, known_for_s = 1e6): Answer => ({
@@ -83,7 +82,7 @@ describe("a command whose answer was lost", () => {
     expect(page.problem.value).toBeNull();
     await vi.advanceTimersByTimeAsync(2000);
     expect(await pressed).toBe(false);
-    expect(page.problem.value?.message).toBe(page.words.notCarriedOut);
+    expect(page.problem.value?.message).toBe(page.t("connection.notCarriedOut"));
     expect(page.commandStatus.value).toBeNull();
     expect(page.calls.value.map((call) => call.status)).toEqual([null]);
   });
@@ -93,7 +92,7 @@ describe("a command whose answer was lost", () => {
     const pressed = page.press();
     await vi.advanceTimersByTimeAsync(1000);
     expect(await pressed).toBe(false);
-    expect(page.problem.value?.message).toBe(page.words.refused(409));
+    expect(page.problem.value?.message).toBe(page.t("connection.refused", { status: 409 }));
   });
 
   it("stays unknown with a server that began later, or that does not answer for a minute", async () => {
@@ -104,7 +103,7 @@ describe("a command whose answer was lost", () => {
       const pressed = page.press();
       await vi.advanceTimersByTimeAsync(70_000);
       expect(await pressed).toBe(false);
-      expect(page.problem.value?.message).toBe(page.words.stillUnknown);
+      expect(page.problem.value?.message).toBe(page.t("connection.stillUnknown"));
       expect(page.commandStatus.value).toBeNull();
     }
   });
@@ -118,7 +117,7 @@ describe("a change of a run whose answer was lost", () => {
     const { changeRun } = await import("../../../src/core/api/runs");
     const { attempt, runsProblem } = await import("../../../src/runs/list/problem");
     expect(await attempt(() => changeRun({ id: "a", revision: "1" }, { name: "A" }))).toBeNull();
-    expect(runsProblem.value).toBe(page.words.doneUnseen);
+    expect(runsProblem.value).toBe(page.t("connection.doneUnseen"));
     expect(asked.filter((each) => each.startsWith("PATCH"))).toHaveLength(1);
   });
 
@@ -127,7 +126,7 @@ describe("a change of a run whose answer was lost", () => {
     const { readRun } = await import("../../../src/core/api/runs");
     const { attempt, runsProblem } = await import("../../../src/runs/list/problem");
     expect(await attempt(() => readRun("a"))).toBeNull();
-    expect(runsProblem.value).toBe(page.words.unreachable);
+    expect(runsProblem.value).toBe(page.t("connection.unreachable"));
     expect(asked).toHaveLength(1);
   });
 });

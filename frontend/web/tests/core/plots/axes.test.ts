@@ -7,7 +7,7 @@ import {
   placeWords,
   timeStep,
 } from "../../../src/core/plots/axes";
-import { text } from "../../../src/core/text/en";
+import { t } from "../../../src/core/text/t";
 
 describe("niceStep", () => {
   it.each([
@@ -72,7 +72,8 @@ describe("the numbers of the time axis", () => {
     const perStep = (step / length) * width;
     const words: [number, number][] = [];
     for (let index = Math.ceil(from / step - 1e-9); index * step <= to + 1e-9; index++) {
-      const long = text.plots.timeTick(index * step).length * DIGIT_PX;
+      const long =
+        t("plots.timeTick", { seconds: Number((index * step).toFixed(4)) }).length * DIGIT_PX;
       const left = placeWords(((index * step - from) / length) * width, long, width, perStep);
       if (left !== null) words.push([left, left + long]);
     }

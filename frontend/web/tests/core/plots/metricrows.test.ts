@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import type { Metrics } from "../../../src/core/api/types";
 import { listGroups, type MeasuredLane, readCell } from "../../../src/core/plots/metricrows";
-import { metricsText as words } from "../../../src/core/text/metrics";
+import { t } from "../../../src/core/text/t";
 
 const METRICS = {
   duration_s: 4,
@@ -67,7 +67,7 @@ describe("the metrics of a lane", () => {
     const { Position, Stiffness } = show(lane({ rise_time_s: 0.3, overshoot_share: 0.163 }));
     expect(Position?.["Rise time"]).toEqual({ value: "0.300" });
     expect(Position?.Overshoot).toEqual({ value: "16.3" });
-    expect(Position?.["Settling time"]?.hint).toBe(words.undefined.unsettled);
+    expect(Position?.["Settling time"]?.hint).toBe(t("metrics.undefined.unsettled"));
     expect(Object.keys(Stiffness ?? {})).not.toContain("Overshoot");
   });
 
@@ -81,20 +81,23 @@ describe("the metrics of a lane", () => {
       "tooShort",
     ],
   ] as const)("say why there is no %s", (name, one, reason) => {
-    expect(show(one).Position?.[name]).toEqual({ value: "–", hint: words.undefined[reason] });
+    expect(show(one).Position?.[name]).toEqual({
+      value: "–",
+      hint: t(`metrics.undefined.${reason}`),
+    });
   });
 
   it("report an error that grew again as not recovered, and a stiffness that did not change", () => {
     const lost = show(lane({ steady_state_position_error_rad: 0.05 }));
     expect(lost.Position?.["Recovery time"]?.value).toBe("–");
     const { Stiffness, Effort } = show(lane({ peak_stiffness_error_nm_per_rad: 0.009 }));
-    expect(Stiffness?.["Recovery time"]?.hint).toBe(words.undefined.unmoved);
-    expect(Effort?.["Torque noise at rest"]?.hint).toBe(words.undefined.moving);
+    expect(Stiffness?.["Recovery time"]?.hint).toBe(t("metrics.undefined.unmoved"));
+    expect(Effort?.["Torque noise at rest"]?.hint).toBe(t("metrics.undefined.moving"));
     const ideal = show(
       lane({ rms_position_error_rad: 1e-15, torque1_noise_nm: 0, torque2_noise_nm: 0 }),
     );
     expect(ideal.Position?.["rms error"]?.value).toBe("< 10⁻⁶");
     const ended = show({ ...lane(), metrics: null });
-    expect(ended.Effort?.["Mechanical work"]?.hint).toBe(words.undefined.lane);
+    expect(ended.Effort?.["Mechanical work"]?.hint).toBe(t("metrics.undefined.lane"));
   });
 });

@@ -48,14 +48,14 @@ async function load(server: Server) {
   const { perform, problem } = await import("../../../src/core/state/actions");
   const { session } = await import("../../../src/core/state/session");
   const { currentValueOr: standing } = await import("../../../src/core/state/conflicts");
-  const { text } = await import("../../../src/core/text/en");
+  const { t } = await import("../../../src/core/text/t");
   session.value = stateAt("1.0") as never;
   const set = (change: Partial<Sine>, seen?: State) => {
     const send: SessionRequest = (edit) =>
       putPosition({ ...(standing("position", SINE as never) as Sine), ...change })(edit);
     return perform("motion", send, seen as never);
   };
-  return { set, start: () => perform("session", start), problem, session, words: text.meanwhile };
+  return { set, start: () => perform("session", start), problem, session, t };
 }
 
 let server: Server;
@@ -143,7 +143,7 @@ describe("a setting after a change of another setting", () => {
       return answer(...asked);
     };
     expect(await page.set({ amplitude_rad: 0.5 })).toBe(false);
-    expect(page.problem.value?.message).toContain(page.words.changed);
+    expect(page.problem.value?.message).toContain(page.t("meanwhile.changed"));
     expect(server.asked.filter((one) => one.startsWith("PUT"))).toHaveLength(6);
   });
 });
