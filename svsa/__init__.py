@@ -50,6 +50,7 @@ from svsa.simulation.reference.series_csv import read_series
 if TYPE_CHECKING:
     from svsa.actuators.arm.parameters import ArmParameters
     from svsa.analysis import design
+    from svsa.analysis.exchange.robot_model import describe_robot
     from svsa.analysis.identification.measured import identify
     from svsa.client import connect, connect_async
     from svsa.control.arm_payload import PayloadAdaptation
@@ -80,6 +81,7 @@ _LATE = {
     "simulate_arm": "svsa.runs.result.simulate_arm",
     **dict.fromkeys(("TipEllipse", "TipMove"), "svsa.simulation.arm.tip_reference"),
     "ActuatorEnv": "svsa.runs.execution.environment",
+    "describe_robot": "svsa.analysis.exchange.robot_model",
     "design": "svsa.analysis.design",
     "falsify": "svsa.evaluation.falsifier",
     "connect": "svsa.client",
@@ -173,6 +175,7 @@ __all__ = [
     "compare_runs",
     "connect",
     "connect_async",
+    "describe_robot",
     "design",
     "export_run",
     "falsify",

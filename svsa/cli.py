@@ -22,6 +22,7 @@ from svsa.actuators.installed import get_mechanism
 from svsa.actuators.parameters import SVSA
 from svsa.analysis.datasheet.cli import datasheet
 from svsa.analysis.design.cli import margins, stability
+from svsa.analysis.exchange.cli import export_model
 from svsa.analysis.identification.cli import identify
 from svsa.control.installed import get_title
 from svsa.errors import SvsaError
@@ -134,6 +135,7 @@ app.command("identify")(identify)
 app.command("stability")(stability)
 app.command("margins")(margins)
 app.command("datasheet")(datasheet)
+app.command("export-model")(export_model)
 app.command("arm-map")(arm_map)
 app.command("arm-collision")(arm_collision)
 app.command("bench-check")(bench_check)

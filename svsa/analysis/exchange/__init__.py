@@ -1,0 +1,1 @@
+"""Models of actuators and arms for other programs."""
