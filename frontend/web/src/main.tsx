@@ -49,7 +49,7 @@ import "./lab/script/script.css";
 import { render } from "preact";
 import "./core/translation";
 import { startFrames } from "./core/plots/frame";
-import { updateAccess } from "./core/state/control";
+import { updateAccess } from "./core/state/access";
 import { openKinds } from "./core/state/kinds";
 import { watchComparisons } from "./core/state/lanes";
 import { openLaws } from "./core/state/laws";

@@ -1,6 +1,7 @@
 import { useId, useState } from "preact/hooks";
 import type { BenchState } from "../core/api/types";
-import { isLive, plantKind } from "../core/state/session";
+import { plantKind } from "../core/state/plant";
+import { isLive } from "../core/state/session";
 import { t } from "../core/text/t";
 import { Problem } from "../core/widgets/form";
 import { BenchButtons } from "./buttons";

@@ -1,7 +1,7 @@
 import type { SessionState } from "../core/api/types";
 import { Plots } from "../core/plots/plots";
+import { loginCount } from "../core/state/access";
 import { isArm } from "../core/state/arm";
-import { loginCount } from "../core/state/control";
 import { phase, session } from "../core/state/session";
 import { t } from "../core/text/t";
 import { BenchStrip } from "../hardware/strip";

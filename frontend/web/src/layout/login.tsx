@@ -1,7 +1,7 @@
 import { useEffect, useId, useRef, useState } from "preact/hooks";
 import { login } from "../core/api/access";
 import { RefusedError } from "../core/api/errors";
-import { access, loginCount, updateAccess } from "../core/state/control";
+import { access, loginCount, updateAccess } from "../core/state/access";
 import { openStream, phase } from "../core/state/session";
 import { t } from "../core/text/t";
 import { ErrorLine } from "../core/widgets/form";

@@ -2,7 +2,7 @@
 import { effect } from "@preact/signals";
 import emulatedIcon from "../core/icons/emulated.svg";
 import realIcon from "../core/icons/real.svg";
-import { plantKind } from "../core/state/session";
+import { plantKind } from "../core/state/plant";
 import { t } from "../core/text/t";
 import { PlantMark } from "../core/widgets/plantmark";
 

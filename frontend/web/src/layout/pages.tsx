@@ -1,6 +1,6 @@
 import { computed } from "@preact/signals";
 import type { ComponentChildren } from "preact";
-import { isClass, isInstructor } from "../core/state/control";
+import { isClass, isInstructor } from "../core/state/access";
 import { session } from "../core/state/session";
 import { t } from "../core/text/t";
 import { Popup } from "../core/widgets/popup";

@@ -1,3 +1,4 @@
+import "../browserless";
 import { describe, expect, it } from "vitest";
 import type { BenchState, SessionState } from "../../src/core/api/types";
 import { isRealBench, plantKindOfBench } from "../../src/core/state/plant";

@@ -1,6 +1,5 @@
-/** Access of this page to the lab, and the control lease of the session. */
+/** The control lease of the session. */
 import { computed, signal } from "@preact/signals";
-import { type Access, readAccess } from "../api/access";
 import {
   deleteControl,
   handControlOver,
@@ -8,39 +7,10 @@ import {
   openPrivateSession,
   takeControl,
 } from "../api/client";
-import { parametersOf, type Template } from "../api/operations";
-import type { Method } from "../api/types";
+import { access, isInstructor, isObserver } from "./access";
 import { explain, perform, problem } from "./actions";
 import { nameForControl, personName, setPersonName } from "./preferences";
 import { isLive, session } from "./session";
-
-/** Null until the lab has reported it. */
-export const access = signal<Access | null>(null);
-
-/** Number of logins on this page, by a secret, a code or a token. */
-export const loginCount = signal(0);
-
-export const isClass = computed(() => access.value?.authentication === "class");
-export const isInstructor = computed(() => isClass.value && access.value?.role === "instructor");
-const ROLES = ["public", "observer", "operator", "instructor"];
-/** Whether the role of the user in a class permits an operation. */
-export const mayCall = <M extends Method>(method: M, template: Template<M>): boolean =>
-  !isClass.value ||
-  ROLES.indexOf(access.value?.role ?? "public") >=
-    ROLES.indexOf(parametersOf(method, template).permission ?? "");
-
-export const isObserver = computed(() => isClass.value && access.value?.role === "observer");
-
-/** Query the lab; without an answer the previous value stays. */
-export async function updateAccess(): Promise<void> {
-  try {
-    access.value = await readAccess();
-  } catch {
-    // The stream reports that the lab does not answer.
-  }
-}
-
-// Holder of the control lease: none, this page, or another client.
 
 /** Name of the control that shows why it was rejected. */
 export const CONTROL_OF_SESSION = "control";

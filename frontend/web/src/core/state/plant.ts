@@ -1,9 +1,10 @@
 /** The plant of a session or a run: simulated or a bench, and its loads. */
 
-import { signal } from "@preact/signals";
+import { computed, signal } from "@preact/signals";
 import type { BenchState, Load, LoadRow, RunDetails, SessionState } from "../api/types";
 import { SVSA } from "./actuators";
 import { armOf } from "./joints";
+import { session } from "./session";
 
 export type PlantKind = "emulated" | "real" | "unknown";
 
@@ -12,6 +13,13 @@ export function plantKindOfBench({ emulated }: BenchState): PlantKind {
   if (emulated === null) return "unknown";
   return emulated ? "emulated" : "real";
 }
+
+export const bench = computed(() => session.value?.bench ?? null);
+
+/** Null for a simulation, which needs no mark. */
+export const plantKind = computed<PlantKind | null>(() =>
+  bench.value === null ? null : plantKindOfBench(bench.value),
+);
 
 /** The mark of a recorded run; a simulation needs none. */
 export function plantKindOfRun(plant: RunDetails["plant"]): PlantKind | null {

@@ -6,7 +6,6 @@ import type { Hello, SessionState } from "../api/types";
 import { type Phase, type ProbeResult, StreamConnection } from "../stream/connection";
 import { BatchDecoder } from "../stream/decoder";
 import { HISTORY_S, MAX_WINDOW_S, RATE_HZ, SampleRing } from "../stream/ring";
-import { type PlantKind, plantKindOfBench } from "./plant";
 
 /** After a change the whole state; otherwise only the fields that change with time. */
 export type Progress = Pick<SessionState, "run_number" | "tick"> & Partial<SessionState>;
@@ -266,11 +265,3 @@ export function watchNetwork(): void {
     if (!document.hidden) reconnect();
   });
 }
-
-export const bench = computed(() => session.value?.bench ?? null);
-
-/** Null for a simulation, which needs no mark. */
-export const plantKind = computed<PlantKind | null>(() => {
-  if (bench.value === null) return null;
-  return plantKindOfBench(bench.value);
-});

@@ -20,7 +20,7 @@ import {
 import type { Law } from "../../core/api/types";
 import { isJobRunning } from "../../core/jobs/progress";
 import { createWork } from "../../core/jobs/work";
-import { isObserver } from "../../core/state/control";
+import { isObserver } from "../../core/state/access";
 import { goTo, place, storeLaws } from "../../runs/list/place";
 
 const PAPERS_LAW = "ndobc";

@@ -4,7 +4,7 @@ import type { Law } from "../../core/api/types";
 import { isJobRunning } from "../../core/jobs/progress";
 import type { LineStyle } from "../../core/plots/definitions";
 import { lineStylesOfLaws } from "../../core/plots/linestyles";
-import { mayCall } from "../../core/state/control";
+import { mayCall } from "../../core/state/access";
 import { laws as installedLaws, titleOf } from "../../core/state/laws";
 import { t } from "../../core/text/t";
 import { PageWithForm } from "../../core/widgets/pagelayout";

@@ -1,7 +1,7 @@
 import { useEffect } from "preact/hooks";
 import { type Study, tableOf } from "../../core/api/studies";
 import { isJobRunning, JobProgress } from "../../core/jobs/progress";
-import { mayCall } from "../../core/state/control";
+import { mayCall } from "../../core/state/access";
 import { titleOf } from "../../core/state/laws";
 import { t } from "../../core/text/t";
 import { Example, PageWithForm } from "../../core/widgets/pagelayout";

@@ -1,7 +1,7 @@
 import type { ComponentChildren } from "preact";
 import { useId } from "preact/hooks";
+import { bench } from "../../core/state/plant";
 import { areKeysOn, setKeysOn } from "../../core/state/preferences";
-import { bench } from "../../core/state/session";
 import { t } from "../../core/text/t";
 import { Panel, PanelButton } from "../../core/widgets/panel";
 import { isHelpOpen } from "./keys";

@@ -1,7 +1,6 @@
+import { isInstructor, isObserver } from "../../core/state/access";
 import {
   control,
-  isInstructor,
-  isObserver,
   mayCommand,
   otherHolder,
   queue,

@@ -1,13 +1,6 @@
 import type { SessionState } from "../../core/api/types";
-import {
-  access,
-  control,
-  handOver,
-  isInstructor,
-  isObserver,
-  releaseControl,
-  requestControl,
-} from "../../core/state/control";
+import { access, isInstructor, isObserver } from "../../core/state/access";
+import { control, handOver, releaseControl, requestControl } from "../../core/state/control";
 import { isLive } from "../../core/state/session";
 import { t } from "../../core/text/t";
 import { Banner } from "../../core/widgets/banner";

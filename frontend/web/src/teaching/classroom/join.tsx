@@ -1,7 +1,7 @@
 import { signal } from "@preact/signals";
 import { useId, useState } from "preact/hooks";
 import { join, login, rejoin } from "../../core/api/access";
-import { access } from "../../core/state/control";
+import { access } from "../../core/state/access";
 import { MAX_NAME_LENGTH, personName, setPersonName } from "../../core/state/preferences";
 import { t } from "../../core/text/t";
 

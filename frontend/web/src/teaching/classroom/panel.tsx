@@ -13,8 +13,8 @@ import {
   renewRejoinCode,
   restorePerson,
 } from "../../core/api/access";
+import { access, isClass, isInstructor, updateAccess } from "../../core/state/access";
 import { explain } from "../../core/state/actions";
-import { access, isClass, isInstructor, updateAccess } from "../../core/state/control";
 import { phase } from "../../core/state/session";
 import { t } from "../../core/text/t";
 import { ErrorLine } from "../../core/widgets/form";

@@ -1,6 +1,7 @@
 /** The users of a class, their queue for the control lease, and their private sessions. */
 import type { ClassState } from "../../core/api/access";
-import { access, handOver, isInstructor, lock, queue } from "../../core/state/control";
+import { access, isInstructor } from "../../core/state/access";
+import { handOver, lock, queue } from "../../core/state/control";
 import { t } from "../../core/text/t";
 import { Table } from "../../core/widgets/tables";
 

@@ -2,7 +2,8 @@
 import { useEffect } from "preact/hooks";
 import type { Step } from "../../core/api/course";
 import { mayCommand } from "../../core/state/control";
-import { bench, session } from "../../core/state/session";
+import { bench } from "../../core/state/plant";
+import { session } from "../../core/state/session";
 import { t } from "../../core/text/t";
 import { Banner } from "../../core/widgets/banner";
 import { Problem } from "../../core/widgets/form";

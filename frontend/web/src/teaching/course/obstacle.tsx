@@ -1,16 +1,16 @@
 /** Obstacles to starting a step here, and the possible solutions. */
 import type { Step } from "../../core/api/course";
+import { isInstructor, isObserver } from "../../core/state/access";
 import {
   hasControl,
-  isInstructor,
-  isObserver,
   openOwnSession,
   otherHolder,
   queue,
   releaseControl,
   requestControl,
 } from "../../core/state/control";
-import { bench, isLive, session } from "../../core/state/session";
+import { bench } from "../../core/state/plant";
+import { isLive, session } from "../../core/state/session";
 import { t } from "../../core/text/t";
 import { isSwitchHeld } from "../../hardware/hold";
 import { PrivateSessionButton } from "../../lab/lease/privatesession";

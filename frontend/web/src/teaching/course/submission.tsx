@@ -1,8 +1,8 @@
 /** Submission of an exercise. */
 import { useEffect, useState } from "preact/hooks";
 import { GRADES_PAGE, readOwnGrades, type Submission } from "../../core/api/course";
+import { isClass } from "../../core/state/access";
 import { explain } from "../../core/state/actions";
-import { isClass } from "../../core/state/control";
 import { personName } from "../../core/state/preferences";
 import { t } from "../../core/text/t";
 import { Criteria, formatPoints, VerifiedRuns } from "../../core/widgets/criteria";

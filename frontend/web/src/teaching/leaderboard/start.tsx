@@ -1,6 +1,6 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import { isJobRunning, JobProgress } from "../../core/jobs/progress";
-import { isClass, mayCall } from "../../core/state/control";
+import { isClass, mayCall } from "../../core/state/access";
 import { personName, setPersonName } from "../../core/state/preferences";
 import { t } from "../../core/text/t";
 import { findFault, LawText } from "../../core/widgets/lawtext";

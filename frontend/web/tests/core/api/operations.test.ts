@@ -107,7 +107,7 @@ describe("a command of the user", () => {
 });
 
 it("a role of a class permits an operation as the schema says, and a lab without one all", async () => {
-  const { access, mayCall } = await import("../../../src/core/state/control");
+  const { access, mayCall } = await import("../../../src/core/state/access");
   const study = "/studies/{study}";
   const permitted = (role: string, authentication = "class") => {
     access.value = { authentication, role } as never;

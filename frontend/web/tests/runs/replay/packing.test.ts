@@ -1,3 +1,4 @@
+import "../../browserless";
 import { describe, expect, it } from "vitest";
 import { unpack } from "../../../src/runs/replay/data";
 
