@@ -30,6 +30,7 @@ _METHODS = ("get", "put", "post", "patch", "delete")
 _PROBLEM = {"schema": {"$ref": "#/components/schemas/Problem"}}
 _ATTRIBUTES = re.compile(r"\n\nAttributes:((?:\n {4}.*)+)")
 _ATTRIBUTE = re.compile(r"^ {4}(\w+): (.*(?:\n {8}.*)*)", re.MULTILINE)
+_BOUNDS = {"ge": "minimum", "gt": "exclusiveMinimum", "le": "maximum", "lt": "exclusiveMaximum"}
 _NO_VALUE = re.compile(r"\b(None|NaN)\b")
 
 _LINKS = {
@@ -98,6 +99,7 @@ def _build_schema(
     )
     for model in schema["components"]["schemas"].values():
         _describe_properties(model)
+        _name_bounds(model)
     return _complete(schema, PermissionTable(routes), needs_secret)
 
 
@@ -110,6 +112,17 @@ def _describe_properties(model: dict[str, Any]) -> None:
             if name in model.get("properties", {}):
                 meaning = _NO_VALUE.sub("null", " ".join(meaning.split())).removesuffix(".")
                 model["properties"][name].setdefault("description", meaning)
+
+
+def _name_bounds(schema: Any) -> None:
+    """Name bounds as in JSON Schema: for optional integers pydantic uses its own names."""
+    if isinstance(schema, dict):
+        for name in [name for name in _BOUNDS if name in schema and "type" in schema]:
+            schema[_BOUNDS[name]] = schema.pop(name)
+        schema = [*schema.values()]
+    if isinstance(schema, list):
+        for part in schema:
+            _name_bounds(part)
 
 
 def _complete(

@@ -4,7 +4,7 @@ Built on pydantic: a field declares its unit, bounds and meaning once; the Pytho
 files, the REST schema and every error message use this declaration.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from numbers import Real
 from typing import Annotated, Any, ClassVar, NamedTuple, Self
 
@@ -108,7 +108,10 @@ def quantity(
     meaning: str,
     *,
     symbol: str = "",
+    title: str = "",
     parts: Sequence[str] = (),
+    choices: Mapping[str, str] | None = None,
+    empty: str = "",
     searched: bool = True,
     **bounds: Any,
 ) -> Any:
@@ -118,7 +121,10 @@ def quantity(
         unit: Unit of the value; "" for none.
         meaning: Description of the field.
         symbol: Short symbol, if it is not the name.
+        title: Label in a form; by default the symbol, or the meaning.
         parts: Name of each number of a list.
+        choices: Label of each value in a form, for a field that permits a few.
+        empty: What applies if an optional field is empty, for a form.
         searched: Whether a tuner may choose the value; false for fields that select the law itself.
         **bounds: pydantic's gt, ge, lt, le and default.
 
@@ -128,8 +134,11 @@ def quantity(
     text = f"{meaning}, {unit}" if unit else meaning
     extra: dict[str, Any] = {"unit": unit} | ({"symbol": symbol} if symbol else {})
     extra |= {"parts": [*parts]} if parts else {}
+    extra |= {"choices": dict(choices)} if choices else {}
+    extra |= {"empty": empty} if empty else {}
     extra |= {} if searched else {"searched": False}
-    return Field(description=text, json_schema_extra=extra, **bounds)
+    title = title or symbol or meaning
+    return Field(title=title, description=text, json_schema_extra=extra, **bounds)
 
 
 class Quantity(NamedTuple):

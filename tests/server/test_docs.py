@@ -7,8 +7,10 @@ from concurrent.futures import ThreadPoolExecutor
 from html.parser import HTMLParser
 
 import pytest
+from pydantic import BaseModel
 from websockets.sync.client import connect
 
+from svsa.inputs.checked import Checked
 from svsa.runs.session.frame import HEADER, HEADER_FIELDS
 from svsa_server import openapi
 from svsa_server.app import build_app
@@ -208,3 +210,31 @@ def test_link_leads_from_a_new_session_to_its_state(lab: Lab) -> None:
     read = lab.client.get(f"/api/v1/sessions/{created[place]}").raise_for_status().json()
     assert read["session"] == created["session"]
     lab.client.delete(f"/api/v1/sessions/{created[place]}").raise_for_status()
+
+
+def test_every_field_of_a_request_declares_its_title_and_bounds() -> None:
+    """pydantic makes a title from the name, such as "Position Poles Rad Per S"."""
+
+    def find_references(part: object) -> set[str]:
+        return set(re.findall(r"#/components/schemas/(\w+)", json.dumps(part)))
+
+    def list_models(model: type[BaseModel]) -> list[type[BaseModel]]:
+        return [model, *(sub for near in model.__subclasses__() for sub in list_models(near))]
+
+    schemas = SCHEMA["components"]["schemas"]
+    bodies = [
+        method.get("requestBody") for item in SCHEMA["paths"].values() for method in item.values()
+    ]
+    names, added = set[str](), find_references(bodies)
+    while added:
+        names |= added
+        added = set.union(*(find_references(schemas[name]) for name in added)) - names
+    models = [model for model in list_models(Checked) if model.__name__ in names]
+    assert len({model.__name__ for model in models}) > 60
+    fields = [(model, *field) for model in models for field in model.model_fields.items()]
+    assert [f"{model.__name__}.{name}" for model, name, field in fields if not field.title] == []
+    written = json.dumps([schemas[name] for name in names])
+    assert (
+        re.findall(r'"(?:ge|gt|le|lt)": [\d.]+, "type"|"type": "\w+", "(?:ge|gt|le|lt)"', written)
+        == []
+    )

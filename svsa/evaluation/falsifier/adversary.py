@@ -39,15 +39,25 @@ class Adversary(Checked):
         ParameterError: If a field is invalid.
     """
 
-    title: str = quantity("", "Permitted actions of the adversary", max_length=200)
+    title: str = quantity("", "Permitted actions of the adversary", title="Title", max_length=200)
     law: InstalledLaw = quantity("", "Law under test", default=PAPERS_LAW)
-    cost: Cost = quantity("", "Cost: fault, peak or recovery", default="fault")
+    cost: Cost = quantity(
+        "",
+        "A fault has a higher cost than any error or recovery time",
+        title="Failure criterion",
+        choices={"fault": "a fault", "peak": "peak error", "recovery": "recovery time"},
+        default="fault",
+    )
     base: dict[str, Any] = quantity("", "Initial settings of all runs", default={FIGURE: "4a"})
-    duration_s: Number = quantity("s", "Duration of a run", gt=0, le=60, default=10.0)
-    measure_from_s: Number = quantity("s", "Start of the measured window", ge=0, default=0.0)
-    terms: Terms = quantity("", "Loads that the adversary may apply")
+    duration_s: Number = quantity(
+        "s", "Duration of a run", title="Length of a run", gt=0, le=60, default=10.0
+    )
+    measure_from_s: Number = quantity(
+        "s", "Start of the measured window", title="Measured from", ge=0, default=0.0
+    )
+    terms: Terms = quantity("", "Loads that the adversary may apply", title="Search space: loads")
     vary: Annotated[tuple[Variation, ...], Field(max_length=16)] = quantity(
-        "", "Settings that the adversary may perturb", default=()
+        "", "Settings that the adversary may perturb", title="Perturbed settings", default=()
     )
 
     @model_validator(mode="before")

@@ -18,7 +18,8 @@ DIGITS = 6
 Body = Literal["link", "motor1", "motor2"]
 BODIES: tuple[Body, ...] = get_args(Body)
 PHASE = "phase_rad"
-Ends = tuple[Number, Number]
+_End = Annotated[Number, Field(ge=0)]
+Ends = tuple[_End, _End]
 """Smallest and greatest value."""
 
 
@@ -53,13 +54,17 @@ class Axis(NamedTuple):
 class _Term(Checked):
     """A load whose size on each body and onset are searched."""
 
-    bodies: Annotated[tuple[Body, ...], Field(min_length=1, max_length=3)] = quantity(
-        "", "Bodies: link, motor1, motor2", default=("link",)
-    )
     torque_nm: Number = quantity(
-        "N·m", "Largest magnitude on each body, in both directions", gt=0, le=50
+        "N·m", "Largest magnitude on each body, in both directions", title="At most", gt=0, le=50
     )
-    start_s: Ends = quantity("s", "Range of the onset")
+    bodies: Annotated[tuple[Body, ...], Field(min_length=1, max_length=3)] = quantity(
+        "",
+        "Bodies: link, motor1, motor2",
+        title="On",
+        choices={"link": "link", "motor1": "motor 1", "motor2": "motor 2"},
+        default=("link",),
+    )
+    start_s: Ends = quantity("s", "Range of the onset", parts=("Onset from", "to"))
 
     @model_validator(mode="after")
     def _check_ends(self) -> Self:
@@ -92,14 +97,16 @@ class _Term(Checked):
 class StepTerm(_Term):
     """A torque step."""
 
-    kind: Literal["step"] = "step"
+    kind: Literal["step"] = quantity("", "Step", default="step")
 
 
 class PulseTerm(_Term):
     """A torque pulse."""
 
-    kind: Literal["pulse"] = "pulse"
-    duration_s: Ends = quantity("s", "Range of the duration")
+    kind: Literal["pulse"] = quantity("", "Pulse", default="pulse")
+    duration_s: Ends = quantity(
+        "s", "Range of the duration", parts=("Length from", "to"), examples=[(0.01, 2.0)]
+    )
 
     @model_validator(mode="after")
     def _check_duration(self) -> Self:
@@ -115,8 +122,10 @@ class PulseTerm(_Term):
 class SineTerm(_Term):
     """A sine from its onset on, with its phase as search variable."""
 
-    kind: Literal["sine"] = "sine"
-    frequency_hz: Ends = quantity("Hz", "Frequency, from and to")
+    kind: Literal["sine"] = quantity("", "Sine", default="sine")
+    frequency_hz: Ends = quantity(
+        "Hz", "Frequency, from and to", parts=("Frequency from", "to"), examples=[(0.1, 20.0)]
+    )
 
     @model_validator(mode="after")
     def _check_frequency(self) -> Self:
@@ -133,7 +142,7 @@ class SineTerm(_Term):
         return super().ranges | own
 
 
-Term = Annotated[StepTerm | PulseTerm | SineTerm, BY_KIND]
+Term = Annotated[StepTerm | PulseTerm | SineTerm, BY_KIND, Field(title="Load")]
 Terms = Annotated[tuple[Term, ...], Field(min_length=1, max_length=8)]
 _LOADS: dict[str, type[ConstantLoad | PulseLoad | SineLoad]] = {
     "step": ConstantLoad,

@@ -65,7 +65,7 @@ class _Range(_Variation):
 class Uniform(_Range):
     """Uniform between low and high."""
 
-    kind: Literal["uniform"] = "uniform"
+    kind: Literal["uniform"] = quantity("", "Uniform", default="uniform")
 
     def draw(self, shares: np.ndarray) -> list[Any]:
         """The values of these shares, 0 to 1."""
@@ -75,7 +75,7 @@ class Uniform(_Range):
 class LogUniform(_Range):
     """Log-uniform between low and high."""
 
-    kind: Literal["log_uniform"] = "log_uniform"
+    kind: Literal["log_uniform"] = quantity("", "Log uniform", default="log_uniform")
     low: Number = quantity("", "Smallest value", gt=0)
 
     def draw(self, shares: np.ndarray) -> list[Any]:
@@ -87,7 +87,7 @@ class LogUniform(_Range):
 class Normal(_Range):
     """Normal with this mean and standard deviation, truncated to low … high."""
 
-    kind: Literal["normal"] = "normal"
+    kind: Literal["normal"] = quantity("", "Normal", default="normal")
     mean: Number = quantity("", "Mean of the distribution before truncation")
     std: Number = quantity("", "Standard deviation before truncation", gt=0)
 
@@ -146,7 +146,7 @@ class _Listed(_Variation):
 class Choice(_Listed):
     """One of these values with equal probability."""
 
-    kind: Literal["choice"] = "choice"
+    kind: Literal["choice"] = quantity("", "Choice", default="choice")
 
     def draw(self, shares: np.ndarray) -> list[Any]:
         """The values of these shares, 0 to 1."""
@@ -156,7 +156,7 @@ class Choice(_Listed):
 class Grid(_Listed):
     """Each of these with every value of every other grid."""
 
-    kind: Literal["grid"] = "grid"
+    kind: Literal["grid"] = quantity("", "Grid", default="grid")
 
     @property
     def levels(self) -> tuple[Any, ...]:
@@ -167,7 +167,7 @@ class Grid(_Listed):
 class Steps(_Range):
     """A grid from low to high, with equal steps or equal ratios."""
 
-    kind: Literal["steps"] = "steps"
+    kind: Literal["steps"] = quantity("", "Steps", default="steps")
     count: Whole = quantity("", "Number of values", ge=2, le=MAX_LEVELS)
     spacing: Literal["linear", "log"] = quantity(
         "", "Spacing: even, or by equal ratios", default="linear"

@@ -68,7 +68,7 @@ class AnyTipReference(Checked):
 class TipEllipse(AnyTipReference):
     """x = x0 + a cos(2π f t), y = y0 + b sin(2π f t)."""
 
-    kind: Literal["ellipse"] = "ellipse"
+    kind: Literal["ellipse"] = quantity("", "Ellipse", default="ellipse")
     center_m: tuple[_Coordinate, _Coordinate] = quantity("m", f"Center {XY}")
     radii_m: tuple[_Coordinate, _Coordinate] = quantity("m", "Half axes a and b")
     frequency_hz: Number = quantity("Hz", "Frequency f", gt=0, le=5)
@@ -82,7 +82,7 @@ class TipEllipse(AnyTipReference):
 class TipMove(AnyTipReference):
     """A straight movement from rest to rest with four continuous derivatives, then rest."""
 
-    kind: Literal["move"] = "move"
+    kind: Literal["move"] = quantity("", "Move", default="move")
     start_m: tuple[_Coordinate, _Coordinate] = quantity("m", f"First point {XY}")
     end_m: tuple[_Coordinate, _Coordinate] = quantity("m", f"Last point {XY}")
     duration_s: Number = quantity("s", "Duration T of the movement", ge=0.2, le=3600)

@@ -20,21 +20,34 @@ LONGEST_TEXT = 100_000
 class FalsificationRequest(Checked):
     """A search: an adversary of the package or a given one, and the law under test."""
 
-    kind: Literal["falsification"] = quantity("", "Search for the load that degrades a law most")
+    kind: Literal["falsification"] = quantity(
+        "", "Search for the load that degrades a law most", title="Falsification"
+    )
     adversary: Annotated[str, Field(min_length=1, max_length=64)] | None = quantity(
-        "", "Name of a built-in adversary", default=None
+        "", "Name of a built-in adversary", title="Definition", default=None
     )
     text: Annotated[str, Field(max_length=LONGEST_TEXT)] | None = quantity(
-        "", "An adversary as TOML, in place of a name", default=None
+        "", "An adversary as TOML, in place of a name", title="Definition (TOML)", default=None
+    )
+    law: InstalledLaw | None = quantity(
+        "",
+        "Law that the search tries to make fail",
+        title="Law under test",
+        empty="as defined",
+        default=None,
     )
     definition: Adversary | None = quantity(
         "", "An adversary with all its fields, in place of a name", default=None
     )
-    law: InstalledLaw | None = quantity(
-        "", "Law under test; by default the adversary's", default=None
+    runs: Whole = quantity(
+        "",
+        "The search ends at the first fault or after this number of runs",
+        title="Maximum runs",
+        ge=1,
+        le=MAX_RUNS,
+        default=20_000,
     )
-    runs: Whole = quantity("", "Runs at most", ge=1, le=MAX_RUNS, default=20_000)
-    seed: Whole = quantity("", "Seed of the search", ge=0, le=2**53 - 1, default=0)
+    seed: Whole = quantity("", "Seed of the search", title="Seed", ge=0, le=2**53 - 1, default=0)
 
     @model_validator(mode="after")
     def _check_one(self) -> Self:

@@ -32,27 +32,48 @@ OWN_NAME = "own"
 
 StudyName = Annotated[str, Field(min_length=1, max_length=64)]
 
+BY_STUDY = "study default"
+
 
 class StudyRequest(Checked):
     """A study to run: built-in, saved or given as text, with changes."""
 
     source: Annotated[StudyName, Owned("study source")] | None = quantity(
-        "", "Name of a built-in or a saved study", default=None
+        "", "Name of a built-in or a saved study", title="Study", default=None
     )
     text: Annotated[str, Field(max_length=LONGEST_TEXT)] | None = quantity(
-        "", "A study as TOML, in place of a source", default=None
+        "", "A study as TOML, in place of a source", title="Definition (TOML)", default=None
+    )
+    runs: Whole | None = quantity(
+        "",
+        "Number of samples, each run under every law; for a grid: repetitions of the complete grid",
+        title="Samples",
+        empty=BY_STUDY,
+        ge=1,
+        le=MAX_RUNS,
+        default=None,
     )
     name: StudyName | None = quantity(
-        "", "Name to save it under; by default that of its source", default=None
+        "",
+        "1 to 64 letters, digits, -, _ or .; by default that of its source",
+        title="Save as",
+        empty="study's name",
+        default=None,
     )
-    runs: Whole | None = quantity("", "Number of samples", ge=1, le=MAX_RUNS, default=None)
     laws: Annotated[tuple[InstalledLaw, ...], Field(min_length=1, max_length=MAX_LAWS)] | None = (
-        quantity("", "Laws, each on the same samples", default=None)
+        quantity("", "Laws, each on the same samples", title="Laws", empty=BY_STUDY, default=None)
     )
     metrics: Annotated[tuple[Metric, ...], Field(min_length=1)] | None = quantity(
-        "", "Metrics stored for each run", default=None
+        "", "Metrics stored for each run", title="Metrics", empty=BY_STUDY, default=None
     )
-    success: Success | None = quantity("", "Success criterion", default=None)
+    success: Success | None = quantity(
+        "",
+        "Upper bounds that a run must meet, in addition to completing without a fault",
+        title="Success criterion",
+        parts=("at most",),
+        empty=BY_STUDY,
+        default=None,
+    )
 
     @model_validator(mode="after")
     def _check_source(self) -> Self:

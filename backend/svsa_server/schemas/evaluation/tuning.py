@@ -20,15 +20,27 @@ MAX_BUDGET = 2000
 class TuningRequest(Checked):
     """A law to be tuned on the training trials."""
 
-    kind: Literal["tuning"] = quantity("", "Search by CMA-ES, on training trials")
-    law: InstalledLaw = quantity("", "Name of an installed law")
+    kind: Literal["tuning"] = quantity("", "Search by CMA-ES, on training trials", title="Tuning")
+    law: InstalledLaw = quantity("", "Name of an installed law", title="Law")
     budget: Whole = quantity(
-        "", "Number of candidates to evaluate", ge=1, le=MAX_BUDGET, default=BUDGET
+        "",
+        "Number of candidates to evaluate",
+        title="Candidates",
+        ge=1,
+        le=MAX_BUDGET,
+        default=BUDGET,
     )
-    seed: Whole = quantity("", "Seed of search and trials", ge=0, le=2**53 - 1, default=0)
-    held: dict[str, Number] = quantity("", "Fixed parameters, which are not searched", default={})
+    seed: Whole = quantity(
+        "", "Seed of search and trials", title="Seed", ge=0, le=2**53 - 1, default=0
+    )
+    held: dict[str, Number] = quantity(
+        "", "Values of parameters that are not searched", title="Fixed parameters", default={}
+    )
     session: Annotated[str, Owned("session")] | None = quantity(
-        "", "Session with the initial design; by default the lab's design", default=None
+        "",
+        "Session with the initial design; by default the lab's design",
+        title="Session",
+        default=None,
     )
 
 

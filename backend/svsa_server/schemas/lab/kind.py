@@ -100,8 +100,9 @@ def _describe_effect(effect: Effect) -> EffectState:
 def _describe_kind(
     model: type[Checked], first: Mapping[str, float] | None, hint: str = ""
 ) -> KindState:
-    kind = str(model.model_fields["kind"].default)
-    title = kind.replace("_", " ").capitalize()
+    field = model.model_fields["kind"]
+    kind = str(field.default)
+    title = field.title or kind
     if first is None:
         return KindState(kind=kind, title=title, hint=hint, form=None)
     fields = [

@@ -19,7 +19,7 @@ from svsa_server.schemas.response import ResponseModel
 class AnswerRequest(Checked):
     """A prediction in the step's unit, or the name of the selected option."""
 
-    answer: Answer
+    answer: Answer = quantity("", "Value or name", title="Answer")
 
 
 class PlaceRequest(Checked):

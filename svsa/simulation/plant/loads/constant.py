@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from typing import ClassVar, Literal
 
+from svsa.inputs.checked import quantity
 from svsa.simulation.plant.loads.load import TorqueLoad, format_torque
 
 
@@ -11,7 +12,7 @@ class ConstantLoad(TorqueLoad):
 
     first: ClassVar[Mapping[str, float] | None] = {}
 
-    kind: Literal["constant"] = "constant"
+    kind: Literal["constant"] = quantity("", "Constant", default="constant")
 
     def describe(self) -> str:
         """Describe the load by its torque."""

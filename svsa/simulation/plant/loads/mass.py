@@ -17,7 +17,7 @@ class MassLoad(AnyLoad):
 
     acts_as: ClassVar[int] = MASS
 
-    kind: Literal["mass"] = "mass"
+    kind: Literal["mass"] = quantity("", "Mass", default="mass")
     mass_kg: Number = quantity("kg", "Mass m", gt=0, le=20, default=PAPER_MASS_KG)
     arm_m: Number = quantity("m", "Arm r", gt=0, le=1, default=PAPER_ARM_M)
 

@@ -12,7 +12,7 @@ class PulseLoad(TorqueLoad):
 
     first: ClassVar[Mapping[str, float] | None] = {"duration_s": 0.5}
 
-    kind: Literal["pulse"] = "pulse"
+    kind: Literal["pulse"] = quantity("", "Pulse", default="pulse")
     duration_s: Number = quantity("s", "Duration", gt=0, le=3600)
 
     def get_duration(self) -> float:

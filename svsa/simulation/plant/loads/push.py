@@ -14,7 +14,7 @@ class PushLoad(TorqueLoad):
 
     is_push: ClassVar[bool] = True
 
-    kind: Literal["push"] = "push"
+    kind: Literal["push"] = quantity("", "Push", default="push")
     hold_s: Number = quantity("s", "Duration after it was last sent", gt=0, le=60, default=0.5)
 
     def get_duration(self) -> float:

@@ -18,7 +18,7 @@ class SeriesLoad(AnyLoad):
 
     acts_as: ClassVar[int] = SERIES
 
-    kind: Literal["series"] = "series"
+    kind: Literal["series"] = quantity("", "Series", default="series")
     time_s: Annotated[tuple[Number, ...], Field(min_length=2, max_length=MAX_SERIES_POINTS)] = (
         quantity("s", "Times since onset, increasing from ≥ 0")
     )

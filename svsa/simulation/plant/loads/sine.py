@@ -25,7 +25,7 @@ class SineLoad(TorqueLoad):
     factor: ClassVar[Any] = staticmethod(compute_wave)
     first: ClassVar[Mapping[str, float] | None] = {"frequency_hz": 1.0}
 
-    kind: Literal["sine"] = "sine"
+    kind: Literal["sine"] = quantity("", "Sine", default="sine")
     frequency_hz: Number = quantity("Hz", "Frequency f", symbol="Frequency", gt=0, le=100)
     phase_rad: Number = quantity("rad", "Phase", ge=-2 * math.pi, le=2 * math.pi, default=0.0)
 

@@ -36,7 +36,7 @@ class AnyTipLoad(AnyLoad):
 class TipMass(AnyTipLoad):
     """A mass at the tip. It comes with the velocity of the tip: no impact."""
 
-    kind: Literal["tip_mass"] = "tip_mass"
+    kind: Literal["tip_mass"] = quantity("", "Tip mass", default="tip_mass")
     mass_kg: Number = quantity("kg", "Mass", gt=0, le=20)
 
     def get_hung_mass(self) -> float:
@@ -63,7 +63,7 @@ class _Force2D(AnyTipLoad):
 class TipForce(_Force2D):
     """A force at the tip that keeps its direction."""
 
-    kind: Literal["tip_force"] = "tip_force"
+    kind: Literal["tip_force"] = quantity("", "Tip force", default="tip_force")
     duration_s: Number | None = quantity("s", "Duration", gt=0, le=3600, default=None)
 
     def get_duration(self) -> float:
@@ -80,7 +80,7 @@ class TipPush(_Force2D):
 
     is_push: ClassVar[bool] = True
 
-    kind: Literal["tip_push"] = "tip_push"
+    kind: Literal["tip_push"] = quantity("", "Tip push", default="tip_push")
     hold_s: Number = quantity("s", "Duration after it was last sent", gt=0, le=60, default=0.5)
 
     def get_duration(self) -> float:
@@ -95,7 +95,7 @@ class TipPush(_Force2D):
 class TipImpulse(AnyTipLoad):
     """An impulse at the tip: a constant force over a few ticks with exactly this integral."""
 
-    kind: Literal["tip_impulse"] = "tip_impulse"
+    kind: Literal["tip_impulse"] = quantity("", "Tip impulse", default="tip_impulse")
     impulse_ns: tuple[_Impulse, _Impulse] = quantity("N·s", f"Impulse {XY}")
     DURATION_S: ClassVar[float] = 0.005
 
@@ -118,7 +118,7 @@ class Wall(AnyTipLoad):
     The wall is the line of points r with n · r = distance; n points away from it, towards the arm.
     """
 
-    kind: Literal["wall"] = "wall"
+    kind: Literal["wall"] = quantity("", "Wall", default="wall")
     normal_rad: Number = quantity(
         "rad", "Direction of n from horizontal, counterclockwise", ge=-2 * math.pi, le=2 * math.pi
     )

@@ -73,7 +73,7 @@ class _Chirp(AnyReference):
         "The amplitude rises in the first quarter of a second and falls in the last."
     )
 
-    kind: Literal["chirp"] = "chirp"
+    kind: Literal["chirp"] = quantity("", "Chirp", default="chirp")
     start_hz: Number = quantity(
         "Hz", "Frequency f0 at the beginning", symbol="From frequency", ge=0, le=FASTEST_HZ
     )

@@ -13,7 +13,7 @@ class ConstantPosition(AnyPosition):
 
     main = "position_rad"
 
-    kind: Literal["constant"] = "constant"
+    kind: Literal["constant"] = quantity("", "Constant", default="constant")
     position_rad: Number = quantity(
         "rad", "Position reference", ge=-FULL_TURN_RAD, le=FULL_TURN_RAD, default=0.0
     )
@@ -35,7 +35,7 @@ class ConstantStiffness(AnyStiffness):
 
     main = "stiffness_nm_per_rad"
 
-    kind: Literal["constant"] = "constant"
+    kind: Literal["constant"] = quantity("", "Constant", default="constant")
     stiffness_nm_per_rad: Number = quantity("N·m/rad", "Stiffness reference", gt=0, le=1e4)
     transition_s: Number = quantity(
         "s", "Duration of the transition from the previous reference", **TRANSITION

@@ -29,7 +29,7 @@ class _MinimumJerk(AnyReference):
 
     hint: ClassVar[str] = "The least jerk from rest to rest; the jerk itself jumps at both ends."
 
-    kind: Literal["minimum_jerk"] = "minimum_jerk"
+    kind: Literal["minimum_jerk"] = quantity("", "Minimum jerk", default="minimum_jerk")
     duration_s: Number = quantity(
         "s", "Duration T of the movement", symbol="Duration", ge=0.05, le=3600
     )

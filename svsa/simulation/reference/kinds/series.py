@@ -39,7 +39,7 @@ class _Series(AnyReference):
     the snap jumps.
     """
 
-    kind: Literal["series"] = "series"
+    kind: Literal["series"] = quantity("", "Series", default="series")
     time_s: Annotated[tuple[Number, ...], _Rows] = quantity(
         "s", f"Times since the start, increasing from ≥ 0, up to {MAX_ROWS}"
     )

@@ -45,7 +45,7 @@ def build_sine(
 class SinePosition(AnyPosition):
     """q_d = offset + amplitude · sin(2π f t + phase)."""
 
-    kind: Literal["sine"] = "sine"
+    kind: Literal["sine"] = quantity("", "Sine", default="sine")
     offset_rad: Number = quantity("rad", "Mean", ge=-FULL_TURN_RAD, le=FULL_TURN_RAD, default=0.0)
     amplitude_rad: Number = quantity("rad", "Amplitude", ge=0, le=FULL_TURN_RAD)
     frequency_hz: Number = quantity("Hz", "Frequency f", ge=0, le=5)
@@ -67,7 +67,7 @@ class SinePosition(AnyPosition):
 class SineStiffness(AnyStiffness):
     """σ_d = offset + amplitude · sin(2π f t + phase), inside the range of the limits."""
 
-    kind: Literal["sine"] = "sine"
+    kind: Literal["sine"] = quantity("", "Sine", default="sine")
     offset_nm_per_rad: Number = quantity("N·m/rad", "Mean", gt=0, le=1e4)
     amplitude_nm_per_rad: Number = quantity("N·m/rad", "Amplitude", ge=0, le=1e4)
     frequency_hz: Number = quantity("Hz", "Frequency f", ge=0, le=5)

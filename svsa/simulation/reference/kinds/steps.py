@@ -33,7 +33,7 @@ class _Steps(AnyReference):
     within `rise_s`, by a polynomial of degree 9 whose first four derivatives are zero at both ends.
     """
 
-    kind: Literal["steps"] = "steps"
+    kind: Literal["steps"] = quantity("", "Steps", default="steps")
     time_s: _Times = quantity("s", "Start time of each level, increasing from ≥ 0")
     rise_s: Number = quantity("s", "Duration of each rise", ge=0.05, le=60, default=0.2)
     transition_s: Number = quantity(
