@@ -12,7 +12,7 @@ const FOLDERS = [
   ["lab/tuning"],
   ["hardware", "lab/design"],
   ["core/plots"],
-  ["core/equations"],
+  ["core/equations", "core/forms"],
   ["core/jobs", "core/widgets"],
   ["core/state"],
   ["core/stream"],

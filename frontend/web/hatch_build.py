@@ -35,6 +35,7 @@ _SOURCES = (
     "replay.html",
     "vite.config.ts",
     "operations.ts",
+    "requests.ts",
     "../../docs/openapi.json",
     "compress.mjs",
     "tsconfig.json",

@@ -2,6 +2,7 @@ import type { Plugin } from "vite";
 import { defineConfig } from "vitest/config";
 import schema from "../../docs/openapi.json" with { type: "json" };
 import { tabulate } from "./operations.ts";
+import { requestSchemas } from "./requests.ts";
 
 /** The lab for `npm run dev`: `svsa serve` with its default port. */
 const SERVER = "http://127.0.0.1:8000";
@@ -73,7 +74,10 @@ function shortPreload(): Plugin {
 export default defineConfig(({ mode }) => ({
   base: "./",
   define: { __OPERATIONS__: JSON.stringify(tabulate(schema)) },
-  plugins: mode === "replay" ? [inlineAssets()] : [newFontsOnly(), shortPreload()],
+  plugins: [
+    requestSchemas(schema.components.schemas),
+    ...(mode === "replay" ? [inlineAssets()] : [newFontsOnly(), shortPreload()]),
+  ],
   build: {
     outDir: "../../backend/svsa_server/page",
     /** A page must not load fonts from its own text. */

@@ -1,10 +1,12 @@
 """The page Studies: display, selection in the plots, and a row opened, by keyboard alone; axe."""
 
+import json
+import math
 import re
 from collections.abc import Iterator
 
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Page, Route, expect
 
 from svsa.evaluation.studies.execution import run_study
 from svsa.evaluation.studies.store import keep_study
@@ -79,6 +81,69 @@ def test_invalid_text_is_reported_with_its_line_and_nothing_is_started(
     expect(page.get_by_text("Valid: 2 samples, 2 runs under NDOBC.")).to_be_visible()
     kept = studied.client.get("/api/v1/studies").json()["saved"]
     assert {one["name"] for one in kept} == {"short", "decided"}
+
+
+def test_rejected_value_is_explained_at_its_field_and_a_bound_is_sent_in_si(
+    page: Page, studied: Lab
+) -> None:
+    page.goto(studied.url + "/?studies=all")
+    name = page.get_by_role("textbox", name="Save as")
+    name.fill("a b")
+    page.get_by_text("Success criterion: study default").click()
+    page.get_by_role("checkbox", name="rms of q_d − q", exact=True).check()
+    bound = page.get_by_role("spinbutton", name=re.compile("^rms of q.*, at most"))
+    page.get_by_role("button", name="Check").click()
+    expect(bound).to_be_focused()
+    expect(bound).to_have_attribute("aria-invalid", "true")
+    bound.fill("2")
+    with page.expect_request("**/studies/check") as check:
+        page.get_by_role("button", name="Check").click()
+    assert check.value.post_data_json == {
+        "source": "load",
+        "name": "a b",
+        "success": {"rms_position_error_rad": pytest.approx(math.radians(2))},
+    }
+    reason = page.locator("label", has=name).locator("+ [role=alert]")
+    expect(reason).to_contain_text("Save as is 'a b': it must be")
+    expect(page.get_by_role("alert")).to_have_count(1)
+    name.fill("a")
+    expect(reason).to_be_hidden()
+    page.get_by_role("button", name="Check").click()
+    expect(page.get_by_text(re.compile("^Valid: "))).to_be_visible()
+
+
+ADDED = {
+    "warm_up_rad": {"type": "number", "minimum": 0, "maximum": math.pi, "default": math.pi / 2}
+}
+ADDED["warm_up_rad"] |= {"title": "Warm-up", "unit": "rad", "description": "Angle before the run"}
+
+
+def test_field_that_the_schema_gains_is_rendered_and_sent(page: Page, studied: Lab) -> None:
+    """The schema in the page is changed, not its code; the server does not know the field."""
+
+    def add_field(route: Route) -> None:
+        answer = route.fetch()
+        text = answer.text()
+        field = json.dumps(ADDED, separators=(",", ":"))[1:-1] + ","
+        place = '{"properties":{"source":'
+        assert text.count(place) == 1
+        route.fulfill(response=answer, body=text.replace(place, place[:15] + field + place[15:]))
+
+    page.route(re.compile("otherpages-.*[.]js"), add_field)
+    page.goto(studied.url + "/?studies=all")
+    added = page.get_by_role("spinbutton", name="Warm-up")
+    expect(added).to_have_value("90")
+    expect(added).to_have_attribute("aria-valuetext", "90 deg")
+    expect(added).to_have_attribute("aria-valuemax", "180")
+    expect(page.get_by_title("Angle before the run")).to_be_visible()
+    added.fill("200")
+    added.press("Tab")
+    expect(page.get_by_role("alert")).to_contain_text("Warm-up: 200 deg is out of range")
+    added.fill("45")
+    with page.expect_request("**/studies/check") as check:
+        page.get_by_role("button", name="Check").click()
+    assert check.value.post_data_json["warm_up_rad"] == pytest.approx(math.pi / 4)
+    expect(page.get_by_role("alert")).to_contain_text("Warm-up")
 
 
 SHARES_SHOWN = """panel => [...panel.querySelectorAll("dl > div")].map(row =>

@@ -13,7 +13,7 @@ import { IdentificationPanel } from "../lab/panels/identification";
 import { LoadButton } from "../lab/panels/loadbutton";
 import { hasWebGl } from "../lab/scene/schematic";
 import { CallsDrawer } from "../lab/script/drawer";
-import { TunePanel } from "../lab/tuning/panel";
+import { isOpen as isTuning } from "../lab/tuning/tuning";
 import { PrivateBanner } from "../runs/list/origin";
 import { isLabShown, isRunsPlace, place } from "../runs/list/place";
 import { Runs } from "../runs/list/runs";
@@ -107,7 +107,7 @@ export function App() {
       {phase.value === "locked" && <Login />}
       <Here key={loginCount.value} />
       <DesignPanel />
-      <TunePanel />
+      {isTuning.value && state !== null && <LazyPage name="tuning" isPanel />}
       <IdentificationPanel />
       <ClassPanel />
       {state !== null && at.kind === "lab" && <Tour />}

@@ -1,6 +1,7 @@
 import { signal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { t } from "../core/text/t";
+import { ErrorLine } from "../core/widgets/form";
 
 type Pages = typeof import("./otherpages");
 
@@ -15,17 +16,19 @@ async function fetchPages(): Promise<void> {
   }
 }
 
-/** A page outside the first file, shown when it has loaded. */
-export function LazyPage({ name }: { name: keyof Pages }) {
+/** A page or panel outside the first file, shown when it has loaded. */
+export function LazyPage({ name, isPanel = false }: { name: keyof Pages; isPanel?: boolean }) {
   useEffect(() => {
     if (pages.peek() === null) void fetchPages();
   }, []);
   const Page = pages.value?.[name];
-  return Page ? (
-    <Page />
+  if (Page) return <Page />;
+  const reason = isMissing.value ? t("pages.missing") : "";
+  return isPanel ? (
+    <ErrorLine>{reason}</ErrorLine>
   ) : (
     <main class="muted waiting-page" aria-live="assertive">
-      {isMissing.value && t("pages.missing")}
+      {reason}
     </main>
   );
 }

@@ -1,8 +1,7 @@
 /** Long-running jobs on the server, of any kind, and the tuning of a law. */
 import { call } from "./operations";
-import { API, sessionName } from "./request";
+import { API } from "./request";
 import type { components } from "./schema";
-import type { Law } from "./types";
 
 type Schemas = components["schemas"];
 
@@ -27,9 +26,7 @@ export type Candidate = Schemas["CandidateState"];
 
 const readResult = (job: Job): Tuning => ({ ...job, ...(job.result as Schemas["TuningResult"]) });
 
-/** Starts from the law's parameters in this session. */
-export const startTuning = async (law: Law, budget: number) =>
-  readResult(await startJob({ kind: "tuning", law, budget, session: sessionName }));
+export const startTuning = async (body: object) => readResult(await startJob(body));
 /** first: index of the first trial to return. */
 export const readTuning = async (id: string, first: number) =>
   readResult(await call("get", "/jobs/{job}", { path: { job: id }, query: { first } }));

@@ -3,7 +3,7 @@ import { LockedError, RefusedError, UnansweredError } from "./errors";
 import { call } from "./operations";
 import { API, client, WORK_TIMEOUT_MS } from "./request";
 import type { components } from "./schema";
-import type { Law, Refusal } from "./types";
+import type { Refusal } from "./types";
 
 type Schemas = components["schemas"];
 
@@ -16,25 +16,13 @@ export type Estimate = Schemas["Estimate"];
 export type SobolIndices = Schemas["SobolIndices"];
 export type StudyRow = Readonly<Record<string, string | number | boolean | null>>;
 
-/** Requested changes; fields that are left out keep the value of the source or the text. */
-export interface StudyChanges {
-  source?: string;
-  text?: string;
-  name?: string;
-  runs?: number;
-  laws?: readonly Law[];
-  metrics?: readonly string[];
-  success?: Readonly<Record<string, number>>;
-}
-
 const CLIENT_HEADER = "SVSA-Client";
 const pathOf = (study: string, rest = ""): string => `studies/${encodeURIComponent(study)}${rest}`;
 
 export const listStudies = () => call("get", "/studies", {});
 export const readStudy = (study: string) => call("get", "/studies/{study}", { path: { study } });
-export const checkStudy = (body: StudyChanges) =>
-  call("post", "/studies/check", { body: body as never });
-export const startStudy = (body: StudyChanges) =>
+export const checkStudy = (body: object) => call("post", "/studies/check", { body: body as never });
+export const startStudy = (body: object) =>
   call("post", "/studies", { body: body as never }, WORK_TIMEOUT_MS);
 /**
  * Delete permanently; a running study is cancelled first, which may take as long as its current

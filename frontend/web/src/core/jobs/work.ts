@@ -19,22 +19,28 @@ export function createWork(describe: (error: unknown) => string = describeError)
       return null;
     }
   };
+  /** Carry out a command of the user; throws if it is rejected. */
+  async function run<T>(command: string, request: () => Promise<T>): Promise<T> {
+    problem.value = "";
+    isBusy.value = command;
+    try {
+      return await request();
+    } finally {
+      isBusy.value = "";
+    }
+  }
   return {
     problem,
     isBusy,
     showError,
     attempt,
+    run,
     poll: poll.follow,
     stopFollowing: poll.stop,
     read: createReader(showError),
-    /** Carry out a command of the user; null if it is rejected. */
-    perform: async <T>(command: string, request: () => Promise<T>): Promise<T | null> => {
-      problem.value = "";
-      isBusy.value = command;
-      const answer = await attempt(request);
-      isBusy.value = "";
-      return answer;
-    },
+    /** The same; null if it is rejected. */
+    perform: async <T>(command: string, request: () => Promise<T>): Promise<T | null> =>
+      attempt(() => run(command, request)),
     /**
      * Stop following; a message about it disappears. Before the list has arrived the name is
      * empty, and a message of the form stays when the first result appears.

@@ -31,8 +31,10 @@ export const choosePreset =
     return putEffects(preset?.effects ?? {})(edit);
   };
 
+type Described = Pick<ParameterRow, "symbol" | "meaning" | "unit" | "low" | "high">;
+
 /** Label, unit, bounds and factor on screen: angles in degrees, small numbers in thousandths. */
-export function quantityOfParameter(parameter: ParameterRow): Quantity {
+export function quantityOfParameter(parameter: Described): Quantity {
   const { low, high } = parameter;
   const quantity = nameQuantity(parameter);
   const { factor = 1 } = quantity;
@@ -43,12 +45,14 @@ export function quantityOfParameter(parameter: ParameterRow): Quantity {
   };
 }
 
-function nameQuantity({ symbol, meaning, unit, high }: ParameterRow): Quantity {
+function nameQuantity({ symbol, meaning, unit, high }: Described): Quantity {
   const label = symbol || meaning;
   if (unit === "1" || unit === "") return { label, unit: "" };
   const isSmall = (unit === "s" || unit === "rad") && high !== null && high <= MILLI_LIMIT;
   if (isSmall) return { label, unit: `m${unit}`, factor: 1e3 };
-  if (unit === "rad") return { label, unit: "deg", factor: DEGREES_PER_RADIAN };
+  if (unit === "rad" || unit === "rad·s") {
+    return { label, unit: unit.replace("rad", "deg"), factor: DEGREES_PER_RADIAN };
+  }
   return { label, unit };
 }
 

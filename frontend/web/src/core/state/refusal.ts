@@ -10,12 +10,19 @@ const MAX_SHOWN = 3;
 
 export function explainRefusal({ message, violations }: RefusedError): string {
   if (violations.length === 0) return message;
-  return violations.slice(0, MAX_SHOWN).map(explainViolation).join(" ");
+  return violations
+    .slice(0, MAX_SHOWN)
+    .map((violation) => explainViolation(violation))
+    .join(" ");
 }
 
-export function explainViolation(violation: Violation): string {
-  const quantity =
-    quantityOf(violation.name) ?? effectQuantityOf(violation.name) ?? parameterOf(violation.name);
+const findQuantity = ({ name }: Violation): Quantity | null =>
+  quantityOf(name) ?? effectQuantityOf(name) ?? parameterOf(name);
+
+export function explainViolation(
+  violation: Violation,
+  quantity: Quantity | null = findQuantity(violation),
+): string {
   if (quantity === null) return violation.message;
   const { label } = quantity;
   if (violation.finding) return t("refusal.finding", { name: label, finding: violation.finding });

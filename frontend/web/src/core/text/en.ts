@@ -7,7 +7,7 @@ import { controlText } from "./control";
 import { controlsText, identificationText, lawsText } from "./controls";
 import { designText } from "./design";
 import { falsifierText } from "./falsifier";
-import { jobsText, tuningText } from "./jobs";
+import { formsText, jobsText, tuningText } from "./jobs";
 import { keysText, sceneText, scriptText } from "./lab";
 import { leaderboardText } from "./leaderboard";
 import { learningText } from "./learning";
@@ -45,6 +45,7 @@ export const en = {
   ...keysText,
   ...identificationText,
   ...jobsText,
+  ...formsText,
   ...realismText,
   ...runsText,
   ...scriptText,

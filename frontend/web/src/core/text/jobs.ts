@@ -19,6 +19,18 @@ export const jobsText = {
   },
 } as const;
 
+/** Forms of requests. */
+export const formsText = {
+  forms: {
+    kind: "Kind",
+    item: "Item",
+    none: "none",
+    add: "Add {{item, lowercase}}",
+    remove: "Remove",
+    removeItem: "Remove {{item, lowercase}} {{number}}",
+  },
+} as const;
+
 /** Tuning a law. */
 export const tuningText = {
   tuning: {
@@ -28,9 +40,6 @@ export const tuningText = {
     about:
       "CMA-ES from the current parameters on 128 training trials, then the ten best candidates on 512 validation trials. Loads, models, stiffness and noise are sampled as for the test trials of the ranking, which are separate.",
     cost: "cost = mean over the trials of log10(rms error, °) + log10(relative rms stiffness error) + 2 if not held; 3 to 4 for a fault; 5 and more above the noise limit",
-    law: "Law",
-    budget: "Candidates",
-    budgetHint: "1 to 2000",
     start: "Start",
     stop: "Stop",
     stopHint: "Keeps the best result so far",

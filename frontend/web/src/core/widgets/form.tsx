@@ -72,9 +72,9 @@ export function Problem({ control, id }: { control: string; id?: string }) {
 }
 
 /** Reason why a request of the page or of its form was rejected; hidden while it is empty. */
-export function ErrorLine({ children }: { children: string }) {
+export function ErrorLine({ children, id }: { children: string; id?: string }) {
   return (
-    <p class="problem" role="alert" hidden={children === ""}>
+    <p class="problem" id={id} role="alert" hidden={children === ""}>
       {children}
     </p>
   );

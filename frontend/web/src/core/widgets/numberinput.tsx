@@ -37,6 +37,8 @@ export interface NumberInputProps extends Demand {
   describedBy?: string;
   placeholder?: string;
   disabled?: boolean;
+  /** The server has rejected its form because of this value. */
+  isInvalid?: boolean;
   /** Every valid number while it is typed. */
   onInput?: (value: number) => void;
   /**
@@ -194,7 +196,7 @@ export function NumberInput(props: NumberInputProps) {
           aria-valuetext={`${shown} ${demand.unit}`.trim()}
           aria-valuemin={min}
           aria-valuemax={max}
-          aria-invalid={reason !== "" || isRefused}
+          aria-invalid={reason !== "" || isRefused || props.isInvalid === true}
           aria-describedby={[describedBy, `${ownId}-reason`].filter(Boolean).join(" ")}
           onInput={(event) => type(event.currentTarget.value)}
           onFocus={({ currentTarget: field }) => {

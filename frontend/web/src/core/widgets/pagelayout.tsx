@@ -59,11 +59,13 @@ export const Example = () => (
 interface BoxesProps {
   offered: readonly { name: string; title: string }[];
   chosen: readonly string[];
+  /** Whether the box of this name cannot be changed. */
+  isFixed?: (name: string) => boolean;
   onChange: (chosen: readonly string[]) => void;
 }
 
 /** Select any of several items, one check box each. */
-export function Boxes({ offered, chosen, onChange }: BoxesProps) {
+export function Boxes({ offered, chosen, isFixed, onChange }: BoxesProps) {
   return (
     <div class="boxes">
       {offered.map(({ name, title }) => (
@@ -71,6 +73,7 @@ export function Boxes({ offered, chosen, onChange }: BoxesProps) {
           <input
             type="checkbox"
             checked={chosen.includes(name)}
+            disabled={isFixed?.(name)}
             onChange={() =>
               onChange(
                 chosen.includes(name)

@@ -14,6 +14,7 @@ import { Scatter } from "./scatter";
 import { SelectedRun } from "./selectedrun";
 import { Start } from "./start";
 import {
+  attempt,
   brush,
   cancel,
   chosenName,
@@ -72,7 +73,7 @@ function Progress({ shownStudy }: { shownStudy: Study }) {
           class="button"
           title={t("studies.goOnHint")}
           disabled={isBusy.value !== ""}
-          onClick={() => void startNewStudy({ source: shownStudy.name })}
+          onClick={() => void attempt(() => startNewStudy({ source: shownStudy.name }))}
         >
           {t("studies.goOn")}
         </button>

@@ -12,7 +12,6 @@ import {
   replayRow,
   type SobolIndices,
   type Study,
-  type StudyChanges,
   type StudyList,
   type StudyRow,
   type StudySummary,
@@ -61,8 +60,8 @@ export const setView = (changed: Readonly<Record<string, string>>): void =>
 export const setBrush = (next: PlaneBrush | null): void =>
   setView({ brush: next === null ? "" : writeBrush(next) });
 
-const { attempt, perform, poll, read, showError, ...work } = createWork();
-export const { problem, isBusy, leave, stopFollowing } = work;
+const { perform, poll, read, run, showError, ...work } = createWork();
+export const { attempt, problem, isBusy, leave, stopFollowing } = work;
 
 export const openList = () =>
   read(listStudies, (studies) => {
@@ -117,15 +116,13 @@ export async function follow(name: string): Promise<void> {
   );
 }
 
-/** Returns whether it was started. */
-export async function startNewStudy(changes: StudyChanges): Promise<boolean> {
-  const started = await perform("start", () => startStudy(changes));
-  if (started === null) return false;
+/** Start and select it; throws if it is rejected. */
+export async function startNewStudy(request: object): Promise<void> {
+  const started = await run("start", () => startStudy(request));
   void openList();
   const isHere = chosenName.peek() === started.name;
   goTo({ kind: "studies", study: started.name, look: isHere ? view.peek() : {} });
   if (isHere) void follow(started.name);
-  return true;
 }
 
 export async function cancel(): Promise<void> {

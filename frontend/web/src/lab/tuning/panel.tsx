@@ -1,10 +1,13 @@
+import schema from "schema:TuningRequest";
 import { useEffect, useState } from "preact/hooks";
 import { tunedFileOf } from "../../core/api/jobs";
+import { sessionName } from "../../core/api/request";
+import { RequestFields } from "../../core/forms/fields";
+import { useRequest } from "../../core/forms/request";
 import { titleOf, usableLaws } from "../../core/state/laws";
 import { isLive, session } from "../../core/state/session";
 import { t } from "../../core/text/t";
-import { ErrorLine, Problem, SelectField } from "../../core/widgets/form";
-import { NumberField } from "../../core/widgets/numberinput";
+import { ErrorLine, Problem } from "../../core/widgets/form";
 import { Panel } from "../../core/widgets/panel";
 import { CostCurve } from "./costcurve";
 import { ResultTable, ValueTable } from "./tables";
@@ -22,43 +25,26 @@ import {
   tuning,
 } from "./tuning";
 
-const BUDGET = 128;
-const MAX_BUDGET = 2000;
-
 function close(): void {
   isOpen.value = false;
 }
 
-/** Law, duration, start and stop. */
+/** Law, budget, start and stop. */
 function Choice() {
-  const [law, setLaw] = useState(session.value?.configuration.law ?? "");
-  const [budget, setBudget] = useState(BUDGET);
+  const { law = "" } = session.value?.configuration ?? {};
+  const choices = { law: usableLaws.value };
+  const form = useRequest(schema, choices, { law, session: sessionName });
   return (
     <form
       class="row small tuning-choice"
       onSubmit={(event) => {
         event.preventDefault();
-        void start(law, budget);
+        void form.attempt(start);
       }}
     >
-      <SelectField
-        label={t("tuning.law")}
-        value={law}
-        options={usableLaws.value.map(({ name }) => name)}
-        name={titleOf}
-        disabled={isTuning.value}
-        onChoose={setLaw}
-      />
-      <NumberField
-        label={t("tuning.budget")}
-        title={t("tuning.budgetHint")}
-        isInteger
-        min={1}
-        max={MAX_BUDGET}
-        value={budget}
-        disabled={isTuning.value}
-        onInput={setBudget}
-      />
+      <fieldset class="row" disabled={isTuning.value}>
+        <RequestFields form={form} schema={schema} replace={{ held: null, session: null }} isRow />
+      </fieldset>
       {isTuning.value ? (
         <button
           type="button"
@@ -72,7 +58,7 @@ function Choice() {
         <button
           type="submit"
           class="button is-primary"
-          disabled={law === "" || isBusy.value !== ""}
+          disabled={form.body.law === "" || isBusy.value !== ""}
         >
           {t("tuning.start")}
         </button>
@@ -151,10 +137,6 @@ function TuningResult() {
 
 /** Tune a law's parameters while the lab runs. */
 export function TunePanel() {
-  return isOpen.value && session.value !== null ? <Tune /> : null;
-}
-
-function Tune() {
   useEffect(() => void findNewest(), []);
   return (
     <Panel title={t("tuning.title")} class="is-wide tuning" onClose={close}>

@@ -9,7 +9,6 @@ import {
   stopTuning,
   type Tuning,
 } from "../../core/api/jobs";
-import type { Law } from "../../core/api/types";
 import { isJobRunning } from "../../core/jobs/progress";
 import { createWork } from "../../core/jobs/work";
 import { perform } from "../../core/state/actions";
@@ -43,9 +42,9 @@ async function follow(id: string): Promise<void> {
   if (pollEnd === "refused") tuning.value = null;
 }
 
-export async function start(law: Law, budget: number): Promise<void> {
-  const started = await work.perform("start", () => startTuning(law, budget));
-  if (started === null) return;
+/** Throws if it is rejected. */
+export async function start(request: object): Promise<void> {
+  const started = await work.run("start", () => startTuning(request));
   candidates.value = [];
   applyTuning(started);
   void follow(started.id);

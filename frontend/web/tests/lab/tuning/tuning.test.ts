@@ -95,12 +95,9 @@ describe("a running tuning", () => {
       "lost",
       sent(state("done", [trial(2, 1), trial(3, 4)], { tried: 4 })),
     ];
-    await start("fl_integral", 3);
-    expect(calls[0]).toEqual({
-      method: "POST",
-      path: "jobs",
-      body: { kind: "tuning", law: "fl_integral", budget: 3, session: "lab" },
-    });
+    const body = { kind: "tuning", law: "fl_integral", budget: 3, session: "lab" };
+    await start(body);
+    expect(calls[0]).toEqual({ method: "POST", path: "jobs", body });
     expect(isUnderWay.value).toBe(true);
     await vi.advanceTimersByTimeAsync(1000);
     expect(problem.value).not.toBe("");
@@ -119,8 +116,7 @@ describe("a running tuning", () => {
     vi.stubGlobal("fetch", async () =>
       Response.json({ type: "urn:svsa:problem:busy", detail: "too much" }, { status: 503 }),
     );
-    await start("fl_integral", 3);
-    expect(String(problem.value)).toContain("too much");
+    await expect(start({})).rejects.toThrow("too much");
     expect(tuning.value?.status).toBe("done");
   });
 });
