@@ -60,14 +60,16 @@ def test_load_is_searched_saved_run_with_a_law_and_shown(page: Page, still_lab: 
     assert "mine" in [one["name"] for one in kept]
 
 
-def test_invalid_bound_is_reported_by_name_and_nothing_is_started(
+def test_invalid_bound_is_reported_at_its_field_and_nothing_is_started(
     page: Page, still_lab: Lab
 ) -> None:
     page.goto(still_lab.url + "/?falsifier=all")
     before = still_lab.client.get("/api/v1/jobs").json()["total"]
-    page.get_by_label("Onset from").fill("7.5")
+    onset = page.get_by_label("Onset from")
+    onset.fill("7.5")
     page.get_by_role("button", name="Search").press("Enter")
-    alert = page.get_by_role("alert").first
-    expect(alert).to_contain_text("terms[0]")
-    expect(alert).to_contain_text("start_s")
+    reason = "Range of the onset is [7.5, 7.0]: it must be two numbers, the first at least 0"
+    expect(onset).to_have_accessible_description(re.compile(re.escape(reason)))
+    expect(onset).to_have_attribute("aria-invalid", "true")
+    expect(page.get_by_role("alert")).to_have_count(1)
     assert still_lab.client.get("/api/v1/jobs").json()["total"] == before

@@ -18,16 +18,6 @@ export type SavedScenario = Schemas["SavedScenario"];
 /** Content of its file. */
 export type Scenario = SavedScenario["scenario"];
 
-/** What to search; one of adversary, text and definition. */
-export interface SearchRequest {
-  adversary?: string;
-  text?: string;
-  definition?: Adversary;
-  law?: Law;
-  runs: number;
-  seed: number;
-}
-
 const readResult = (job: Job): Search => ({
   ...job,
   ...(job.result as Schemas["FalsificationResult"]),
@@ -35,8 +25,7 @@ const readResult = (job: Job): Search => ({
 
 export const listAdversaries = () => call("get", "/adversaries", {});
 export const listSearches = async () => (await listJobs("falsification")).map(readResult);
-export const startSearch = async (searchRequest: SearchRequest) =>
-  readResult(await startJob({ kind: "falsification", ...searchRequest }));
+export const startSearch = async (body: object) => readResult(await startJob(body));
 export const readSearch = async (id: string) => readResult(await readJob(id));
 export { jobFileOf as searchFileOf, stopJob as stopSearch };
 

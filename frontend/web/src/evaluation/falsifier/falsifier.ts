@@ -10,7 +10,6 @@ import {
   type SavedScenario,
   type Scenario,
   type Search,
-  type SearchRequest,
   saveScenario,
   startSearch,
   stopSearch,
@@ -94,7 +93,7 @@ export const laws = computed((): readonly Law[] => {
 
 export const setLaws = (names: readonly Law[]): void => storeLaws(selection.peek(), names);
 
-const { attempt, perform, poll, read, ...work } = createWork();
+const { attempt, perform, poll, read, run, ...work } = createWork();
 export const { problem, isBusy, leave, stopFollowing } = work;
 
 export const openLists = () =>
@@ -154,13 +153,11 @@ export async function traceSelection(): Promise<void> {
   }
 }
 
-/** Returns whether it was started. */
-export async function startNewSearch(searchRequest: SearchRequest): Promise<boolean> {
-  const started = await perform("begin", () => startSearch(searchRequest));
-  if (started === null) return false;
+/** Start and select it; throws if it is rejected. */
+export async function startNewSearch(request: object): Promise<void> {
+  const started = await run("begin", () => startSearch(request));
   void openLists();
   goTo({ kind: "falsifier", search: started.id, scenario: "", laws: [] });
-  return true;
 }
 
 export async function cancel(): Promise<void> {

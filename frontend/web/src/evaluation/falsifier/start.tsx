@@ -1,28 +1,28 @@
+import schema from "schema:FalsificationRequest";
 import { useState } from "preact/hooks";
-import type { Adversary } from "../../core/api/falsifications";
-import { titleOf, usableLaws } from "../../core/state/laws";
+import type { Adversary, AdversaryState } from "../../core/api/falsifications";
+import { FieldError } from "../../core/forms/controls";
+import { Fields, RequestFields } from "../../core/forms/fields";
+import { useRequest } from "../../core/forms/request";
+import { readField } from "../../core/forms/schema";
+import { usableLaws } from "../../core/state/laws";
 import { t } from "../../core/text/t";
 import { SelectField } from "../../core/widgets/form";
 import { NumberField } from "../../core/widgets/numberinput";
-import { SourceField } from "../campaign/sourcefield";
-import {
-  type AdversaryForm,
-  describeTerms,
-  EFFECTS,
-  FIGURES,
-  HARMS,
-  readForm,
-  type TermForm,
-  writeForm,
-} from "./definition";
+import { OWN, SourceField } from "../campaign/sourcefield";
+import { describeTerms, EFFECTS, FIGURES, readModelError, writeModelError } from "./definition";
 import { adversaries, isBusy, startNewSearch } from "./falsifier";
-import { TermFields } from "./term";
 
-const RUNS = 20_000;
+const { definition: adversary = {}, ...properties } = schema.properties ?? {};
+const terms = readField(adversary).properties?.terms ?? {};
+
+interface PartProps {
+  definition: Adversary;
+  onChange: (changed: Partial<Adversary>) => void;
+}
 
 /** Base of the runs: effects, references. */
-function Base({ form, onChange }: FieldsProps) {
-  const { base } = form;
+function Base({ definition: { base }, onChange }: PartProps) {
   const effects = EFFECTS.find((effect) => effect === (base.effects ?? "ideal"));
   return (
     <div class="pair">
@@ -46,131 +46,92 @@ function Base({ form, onChange }: FieldsProps) {
   );
 }
 
-interface FieldsProps {
-  form: AdversaryForm;
-  onChange: (changed: Partial<AdversaryForm>) => void;
+/** Perturbations of inertia and spring as one number; others are kept. */
+function ModelError({ definition: { vary }, onChange }: PartProps) {
+  return (
+    <NumberField
+      label={t("falsifier.off")}
+      unit="%"
+      title={t("falsifier.offHint")}
+      min={0}
+      max={90}
+      value={readModelError(vary)}
+      onInput={(percent) => onChange({ vary: writeModelError(vary, percent) })}
+      below={<FieldError path="definition.vary" schema={{ title: t("falsifier.off") }} />}
+    />
+  );
 }
 
-function Loads({ form, onChange }: FieldsProps) {
-  const { terms } = form;
-  const set = (next: readonly TermForm[]) => onChange({ terms: next, title: describeTerms(next) });
+function Definition({ definition, onChange }: PartProps) {
+  const parts = { definition, onChange };
   return (
-    <fieldset class="stack">
-      <legend class="hint">{t("falsifier.loads")}</legend>
-      {terms.map((term, at) => (
-        <TermFields
-          key={at}
-          number={at + 1}
-          term={term}
-          canBeRemoved={terms.length > 1}
-          onChange={(changed) => set(terms.map((other, place) => (place === at ? changed : other)))}
-          onRemove={() => set(terms.filter((_, place) => place !== at))}
-        />
-      ))}
-      <button
-        type="button"
-        class="button"
-        disabled={terms.length >= 8}
-        onClick={() => set([...terms, terms.at(-1) as TermForm])}
-      >
-        {t("falsifier.add")}
-      </button>
-    </fieldset>
+    <Fields
+      schema={adversary}
+      path="definition"
+      value={definition}
+      onChange={(next) => {
+        const changed = next as unknown as Adversary;
+        const isSame = changed.terms === definition.terms;
+        onChange(isSame ? changed : { ...changed, title: describeTerms(changed.terms, terms) });
+      }}
+      replace={{ title: null, base: <Base {...parts} />, vary: <ModelError {...parts} /> }}
+    />
   );
 }
 
 /** Bounds and objective of a search: a built-in adversary, changed, or text. */
-export function Start() {
-  const known = adversaries.value;
-  const first = known[0];
-  const [source, setSource] = useState<string | null>(null);
-  const [changed, setChanged] = useState<Partial<AdversaryForm>>({});
+function SearchForm({ known, first }: { known: readonly AdversaryState[]; first: AdversaryState }) {
+  const [source, setSource] = useState(first.name);
   const [own, setOwn] = useState("");
-  const [law, setLaw] = useState("");
-  const [runs, setRuns] = useState(RUNS);
-  const [seed, setSeed] = useState(0);
-  if (first === undefined) return null;
-  const chosen = source ?? first.name;
-  const from = known.find(({ name }) => name === chosen);
-  const form = from && { ...readForm(from.definition as Adversary), ...changed };
-  const tested = law || (form?.law ?? "");
-  const change = (more: Partial<AdversaryForm>) => setChanged({ ...changed, ...more });
+  const start = { definition: first.definition };
+  const form = useRequest(schema, { law: usableLaws.value }, start);
+  const isOwn = source === OWN;
+  const definition = form.body.definition as Adversary;
+  const set = (changed: object) => form.set({ ...form.body, ...changed });
   return (
     <form
       class="surface card stack form"
       onSubmit={(event) => {
         event.preventDefault();
-        const definition = form
-          ? { definition: writeForm({ ...form, law: tested }) }
-          : { text: own };
-        void startNewSearch({ ...definition, ...(law !== "" && { law }), runs, seed });
+        void form.attempt(({ definition: changed, law, ...body }) =>
+          startNewSearch({ ...body, ...(isOwn ? { text: own, law } : { definition: changed }) }),
+        );
       }}
     >
       <h3>{t("falsifier.begin")}</h3>
-      <SourceField
-        label={t("falsifier.adversary")}
-        own={{ name: t("falsifier.own"), label: t("falsifier.text") }}
-        templates={known}
-        source={chosen}
-        text={own}
-        onChange={(name, written) => {
-          setSource(name);
-          setOwn(written);
-          setChanged({});
+      <RequestFields
+        form={form}
+        schema={schema}
+        replace={{
+          adversary: (
+            <SourceField
+              label={properties.adversary?.title ?? ""}
+              own={{ name: t("falsifier.own"), label: properties.text?.title ?? "" }}
+              templates={known}
+              source={source}
+              text={own}
+              onChange={(name, written) => {
+                setSource(name);
+                setOwn(written);
+                const template = known.find((candidate) => candidate.name === name);
+                if (template && name !== source) set({ definition: template.definition });
+              }}
+            />
+          ),
+          text: null,
+          ...(isOwn
+            ? { definition: null }
+            : {
+                law: null,
+                definition: (
+                  <Definition
+                    definition={definition}
+                    onChange={(changed) => set({ definition: { ...definition, ...changed } })}
+                  />
+                ),
+              }),
         }}
       />
-      <SelectField
-        label={t("falsifier.law")}
-        value={tested}
-        options={[...(form ? [] : [""]), ...usableLaws.value.map(({ name }) => name)]}
-        name={(name) => (name === "" ? t("studies.asInStudy") : titleOf(name))}
-        onChoose={setLaw}
-      />
-      {form && (
-        <>
-          <SelectField
-            label={t("falsifier.cost")}
-            value={form.cost}
-            options={HARMS}
-            name={(cost) => t(`falsifier.costs.${cost}`)}
-            title={t("falsifier.costHint")}
-            onChoose={(cost) => change({ cost })}
-          />
-          <Base form={form} onChange={change} />
-          <Loads form={form} onChange={change} />
-          <div class="pair">
-            <NumberField
-              label={t("falsifier.off")}
-              unit="%"
-              title={t("falsifier.offHint")}
-              min={0}
-              max={90}
-              value={form.offPercent}
-              onInput={(offPercent) => change({ offPercent })}
-            />
-            <NumberField
-              label={t("falsifier.duration")}
-              unit="s"
-              min={0.1}
-              max={60}
-              value={form.durationS}
-              onInput={(durationS) => change({ durationS })}
-            />
-          </div>
-        </>
-      )}
-      <div class="pair">
-        <NumberField
-          label={t("falsifier.runs")}
-          isInteger
-          title={t("falsifier.runsHint")}
-          min={1}
-          max={100_000}
-          value={runs}
-          onInput={setRuns}
-        />
-        <NumberField label={t("falsifier.seed")} isInteger min={0} value={seed} onInput={setSeed} />
-      </div>
       <div class="row">
         <button type="submit" class="button is-primary" disabled={isBusy.value !== ""}>
           {t("falsifier.search")}
@@ -178,4 +139,9 @@ export function Start() {
       </div>
     </form>
   );
+}
+
+export function Start() {
+  const [first] = adversaries.value;
+  return first ? <SearchForm known={adversaries.value} first={first} /> : null;
 }

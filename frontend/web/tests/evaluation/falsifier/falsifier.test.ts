@@ -1,12 +1,14 @@
 import "../../browserless";
 import { beforeEach, describe, expect, test } from "vitest";
+import api from "../../../../../docs/openapi.json";
+import { resolveReferences } from "../../../requests";
 import type { Adversary, LawTrace, Scenario, Search } from "../../../src/core/api/falsifications";
+import type { Schema } from "../../../src/core/forms/schema";
 import {
-  changeKind,
   describeTerms,
-  readForm,
+  readModelError,
   spanOf,
-  writeForm,
+  writeModelError,
 } from "../../../src/evaluation/falsifier/definition";
 
 const { rankLaws } = await import("../../../src/evaluation/falsifier/laws");
@@ -23,62 +25,32 @@ const {
 const { place, readPlace, writePlace } = await import("../../../src/runs/list/place");
 const { describeJob } = await import("../../../src/core/jobs/progress");
 
-const ADVERSARY: Adversary = {
-  title: "A pulse and a sine",
-  law: "ndobc",
-  cost: "peak",
-  base: { figure: "4b", effects: "rig", loads: [] },
-  duration_s: 9,
-  measure_from_s: 2,
-  terms: [
-    { kind: "pulse", bodies: ["link"], torque_nm: 1.4, start_s: [2, 7], duration_s: [0.01, 2] },
-    { kind: "sine", bodies: ["motor1"], torque_nm: 2, start_s: [2, 7], frequency_hz: [0.1, 20] },
-    { kind: "step", bodies: ["link", "motor2"], torque_nm: 1, start_s: [0, 1] },
-  ],
-  vary: [],
-};
+const TERMS: Adversary["terms"] = [
+  { kind: "pulse", bodies: ["link"], torque_nm: 1.4, start_s: [2, 7], duration_s: [0.01, 2] },
+  { kind: "step", bodies: ["link", "motor2"], torque_nm: 1, start_s: [0, 1] },
+];
 const perturbed = (path: string, low: number, high: number) =>
   ({ kind: "uniform", path, low, high, relative: true }) as Adversary["vary"][number];
 const INERTIA = "actuator.link_inertia_kg_m2";
 const SPRING = "actuator.spring_stiffness_n_per_m";
 
-describe("the form of an adversary", () => {
-  test("fields that it does not show are sent back unchanged", () => {
-    expect(writeForm(readForm(ADVERSARY))).toEqual(ADVERSARY);
-    const other = { ...ADVERSARY, vary: [perturbed("gains.x", 0.5, 1.5)] };
-    expect(writeForm(readForm(other))).toEqual(other);
-  });
+test("an error of the model is one number in percent, and other perturbations are kept", () => {
+  const other = perturbed("gains.x", 0.5, 1.5);
+  const off = [other, perturbed(INERTIA, 0.8, 1.2), perturbed(SPRING, 0.8, 1.2)];
+  expect(readModelError(off)).toBe(20);
+  expect(writeModelError(off, 20)).toEqual(off);
+  expect(writeModelError(off, 0)).toEqual([other]);
+  const uneven = [perturbed(INERTIA, 0.8, 1.2), perturbed(SPRING, 0.9, 1.1)];
+  expect([readModelError(uneven), readModelError([other]), readModelError([])]).toEqual([0, 0, 0]);
+});
 
-  test("a model error is one number in percent", () => {
-    const off = {
-      ...ADVERSARY,
-      vary: [perturbed(INERTIA, 0.8, 1.2), perturbed(SPRING, 0.8, 1.2)],
-    };
-    const form = readForm(off);
-    expect([form.offPercent, form.vary]).toEqual([20, []]);
-    expect(writeForm(form)).toEqual(off);
-    expect(writeForm({ ...form, offPercent: 0 }).vary).toEqual([]);
-    const uneven = {
-      ...ADVERSARY,
-      vary: [perturbed(INERTIA, 0.8, 1.2), perturbed(SPRING, 0.9, 1.1)],
-    };
-    expect(readForm(uneven).offPercent).toBe(0);
-    expect(writeForm(readForm(uneven))).toEqual(uneven);
-  });
-
-  test("a load of another kind has the range of that kind", () => {
-    const form = readForm(ADVERSARY);
-    const [pulse] = form.terms;
-    const sine = writeForm({ ...form, terms: [changeKind(pulse as never, "sine")] }).terms[0];
-    expect(sine).toMatchObject({ kind: "sine", frequency_hz: [0.1, 20], torque_nm: 1.4 });
-    expect(sine).not.toHaveProperty("duration_s");
-  });
-
-  test("a changed family is named by its permitted loads", () => {
-    const { terms } = readForm(ADVERSARY);
-    expect(describeTerms(terms.slice(0, 1))).toBe("Pulse of at most 1.4 N·m on link");
-    expect(describeTerms([...terms, ...terms, ...terms]).length).toBeLessThanOrEqual(200);
-  });
+test("a changed family is named by its permitted loads", () => {
+  const { terms } = api.components.schemas.Adversary.properties;
+  const schema = resolveReferences(terms, api.components.schemas) as Schema;
+  expect(describeTerms(TERMS, schema)).toBe(
+    "Pulse of at most 1.4 N·m on link; Step of at most 1 N·m on link, motor 2",
+  );
+  expect(describeTerms(Array(9).fill(TERMS[0]), schema)).toHaveLength(200);
 });
 
 const lawOf = (law: string, peak: number, faultS: number | null = null): LawTrace => ({
