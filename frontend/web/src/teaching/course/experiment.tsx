@@ -133,7 +133,9 @@ export function Trial({ of, exercise, onDone }: TaskProps) {
       {isFree && (
         <p class="hint">
           {t("lesson.free", {
-            what: of.free.map((name) => t(`lesson.freeNames.${name}`) ?? name).join(", "),
+            what: of.free
+              .map((name) => t(`lesson.freeNames.${name}`, { defaultValue: name }))
+              .join(", "),
           })}
         </p>
       )}

@@ -55,8 +55,7 @@ export function CutOff({ of }: { of: Step }) {
   if (last?.step !== of.name) return null;
   return (
     <p class="note is-bad" role="alert">
-      {((time: string) => t(`lesson.cut.${last.why}`, { time }))(last.timeS.toFixed(1))}{" "}
-      {t("lesson.cutAgain")}
+      {t(`lesson.cut.${last.why}`, { time: last.timeS.toFixed(1) })} {t("lesson.cutAgain")}
     </p>
   );
 }
