@@ -1,4 +1,5 @@
 /** The numbers of the API as users read and type them: one name and one unit per field. */
+import numbers from "numbers:SinePosition ConstantPosition SineStiffness ConstantStiffness ObserverBandwidth ConstantLoad";
 import { t } from "./text/t";
 import { DEGREES_PER_RADIAN } from "./units";
 
@@ -12,29 +13,56 @@ export interface Quantity {
   max?: number;
 }
 
-const STIFFNESS = "N·m/rad";
-const degrees = (label: string, min: number): Quantity => ({
-  label,
-  unit: "deg",
-  factor: DEGREES_PER_RADIAN,
-  min,
-  max: 360,
-});
-const plain = (label: string, unit = "", bounds: Pick<Quantity, "min" | "max"> = {}): Quantity => ({
-  label,
-  unit,
-  ...bounds,
-});
+const MILLI_LIMIT = 0.1;
+
+/** A number as the API describes it. */
+interface Described {
+  symbol: string;
+  meaning: string;
+  unit: string;
+  low: number | null;
+  high: number | null;
+}
+
+/** Label, unit, bounds and factor on screen: angles in degrees, small numbers in thousandths. */
+export function quantityOfParameter(parameter: Described): Quantity {
+  const { low, high } = parameter;
+  const quantity = nameQuantity(parameter);
+  const { factor = 1 } = quantity;
+  return {
+    ...quantity,
+    ...(low !== null && { min: low * factor }),
+    ...(high !== null && { max: high * factor }),
+  };
+}
+
+function nameQuantity({ symbol, meaning, unit, high }: Described): Quantity {
+  const label = symbol || meaning;
+  if (unit === "1" || unit === "") return { label, unit: "" };
+  const isSmall = (unit === "s" || unit === "rad") && high !== null && high <= MILLI_LIMIT;
+  if (isSmall) return { label, unit: `m${unit}`, factor: 1e3 };
+  if (unit === "rad" || unit === "rad·s") {
+    return { label, unit: unit.replace("rad", "deg"), factor: DEGREES_PER_RADIAN };
+  }
+  return { label, unit };
+}
+
+/** A number of the API's schema; several requests have the same bounds for a name. */
+const number = (name: string, label: string): Quantity => {
+  const { unit = "", low = null, high = null } = numbers[name] ?? {};
+  return quantityOfParameter({ symbol: label, meaning: "", unit, low, high });
+};
+const plain = (label: string, unit = ""): Quantity => ({ label, unit });
 
 export const QUANTITIES = {
-  amplitude_rad: degrees(t("motion.amplitude"), 0),
-  offset_rad: degrees(t("motion.offset"), -360),
-  position_rad: degrees(t("motion.position"), -360),
-  frequency_hz: plain(t("motion.frequency"), "Hz", { min: 0, max: 5 }),
-  stiffness_nm_per_rad: plain(t("stiffness.level"), STIFFNESS),
-  offset_nm_per_rad: plain(t("stiffness.mean"), STIFFNESS),
-  amplitude_nm_per_rad: plain(t("stiffness.amplitude"), STIFFNESS, { min: 0, max: 10_000 }),
-  stiffness: plain(t("stiffness.throughout"), STIFFNESS),
+  amplitude_rad: number("amplitude_rad", t("motion.amplitude")),
+  offset_rad: number("offset_rad", t("motion.offset")),
+  position_rad: number("position_rad", t("motion.position")),
+  frequency_hz: number("frequency_hz", t("motion.frequency")),
+  stiffness_nm_per_rad: number("stiffness_nm_per_rad", t("stiffness.level")),
+  offset_nm_per_rad: number("offset_nm_per_rad", t("stiffness.mean")),
+  amplitude_nm_per_rad: number("amplitude_nm_per_rad", t("stiffness.amplitude")),
+  stiffness: number("stiffness_nm_per_rad", t("stiffness.throughout")),
   position_poles_rad_per_s: plain(
     t("design.summary", { group: t("design.position") }),
     t("design.unit"),
@@ -45,8 +73,8 @@ export const QUANTITIES = {
   ),
   position_coefficients: plain(t("design.summary", { group: t("design.position") })),
   stiffness_coefficients: plain(t("design.summary", { group: t("design.stiffness") })),
-  bandwidth_rad_per_s: plain(t("observer.all"), t("design.unit"), { min: 0.1, max: 1000 }),
-  torque_nm: plain(t("load.torque"), "N·m", { min: -50, max: 50 }),
+  bandwidth_rad_per_s: number("bandwidth_rad_per_s", t("observer.all")),
+  torque_nm: number("torque_nm", t("load.torque")),
   duration_s: plain(t("load.duration"), "s"),
   factor: plain(t("transport.speed")),
   by: plain(t("control.name")),

@@ -1,6 +1,5 @@
 /** The fields of a request, as the API's schema describes them. */
-import type { Quantity } from "../quantities";
-import { quantityOfParameter } from "../state/kinds";
+import { type Quantity, quantityOfParameter } from "../quantities";
 
 /** A part of a request's JSON Schema, with the annotations of the server's `quantity`. */
 export interface Schema {

@@ -2,11 +2,9 @@
 import { signal } from "@preact/signals";
 import { putEffects, readKinds, type SessionRequest } from "../api/client";
 import type { EffectRow, EffectsPreset, FormField, Kinds, ParameterRow } from "../api/types";
-import type { Quantity } from "../quantities";
-import { DEGREES_PER_RADIAN } from "../units";
+import { type Quantity, quantityOfParameter } from "../quantities";
 
 const RETRY_MS = 2000;
-const MILLI_LIMIT = 0.1;
 
 export type Preset = EffectsPreset["name"];
 
@@ -30,31 +28,6 @@ export const choosePreset =
     const preset = kinds.value.presets.find((candidate) => candidate.name === name);
     return putEffects(preset?.effects ?? {})(edit);
   };
-
-type Described = Pick<ParameterRow, "symbol" | "meaning" | "unit" | "low" | "high">;
-
-/** Label, unit, bounds and factor on screen: angles in degrees, small numbers in thousandths. */
-export function quantityOfParameter(parameter: Described): Quantity {
-  const { low, high } = parameter;
-  const quantity = nameQuantity(parameter);
-  const { factor = 1 } = quantity;
-  return {
-    ...quantity,
-    ...(low !== null && { min: low * factor }),
-    ...(high !== null && { max: high * factor }),
-  };
-}
-
-function nameQuantity({ symbol, meaning, unit, high }: Described): Quantity {
-  const label = symbol || meaning;
-  if (unit === "1" || unit === "") return { label, unit: "" };
-  const isSmall = (unit === "s" || unit === "rad") && high !== null && high <= MILLI_LIMIT;
-  if (isSmall) return { label, unit: `m${unit}`, factor: 1e3 };
-  if (unit === "rad" || unit === "rad·s") {
-    return { label, unit: unit.replace("rad", "deg"), factor: DEGREES_PER_RADIAN };
-  }
-  return { label, unit };
-}
 
 const listNumbers = ({ value, parameters }: EffectRow): ParameterRow[] =>
   value === null ? parameters : [value];

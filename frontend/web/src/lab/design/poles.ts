@@ -1,4 +1,5 @@
 /** Poles in the plane: single real ones, and complex ones with their conjugate. */
+import { quantityProps } from "../../core/quantities";
 
 export interface Pole {
   re: number;
@@ -14,7 +15,8 @@ export const MAX_RE = 40;
 export const MIN_RE = -300;
 export const MAX_IM = 120;
 /** Of a bandwidth that is typed, rad/s. */
-export const BANDWIDTH_BOUNDS = { min: 0.1, max: 1000 } as const;
+const { min = 0, max = 0 } = quantityProps("bandwidth_rad_per_s");
+export const BANDWIDTH_BOUNDS = { min, max };
 
 const clamp = (value: number, least: number, most: number) =>
   Math.min(most, Math.max(least, value));

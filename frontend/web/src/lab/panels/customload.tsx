@@ -1,10 +1,10 @@
 import { useState } from "preact/hooks";
 import { addLoad } from "../../core/api/client";
 import type { Load } from "../../core/api/types";
-import { quantityProps } from "../../core/quantities";
+import { quantityOfParameter, quantityProps } from "../../core/quantities";
 import { perform } from "../../core/state/actions";
 import { isArm, settingsJoint } from "../../core/state/arm";
-import { initialValues, kinds, quantityOfParameter, readForm } from "../../core/state/kinds";
+import { initialValues, kinds, readForm } from "../../core/state/kinds";
 import { t } from "../../core/text/t";
 import { Choice, Problem } from "../../core/widgets/form";
 import { NumberField } from "../../core/widgets/numberinput";

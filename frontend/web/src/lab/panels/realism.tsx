@@ -1,9 +1,10 @@
 import { useRef } from "preact/hooks";
 import { putEffects } from "../../core/api/client";
 import type { EffectRow, Effects, SessionState } from "../../core/api/types";
+import { quantityOfParameter } from "../../core/quantities";
 import { perform } from "../../core/state/actions";
 import { currentValueOr } from "../../core/state/conflicts";
-import { choosePreset, kinds, type Preset, quantityOfParameter } from "../../core/state/kinds";
+import { choosePreset, kinds, type Preset } from "../../core/state/kinds";
 import { t } from "../../core/text/t";
 import { Choice, Problem } from "../../core/widgets/form";
 import { Switch } from "../../core/widgets/switch";

@@ -19,8 +19,9 @@ import type {
   RequestOf,
   StiffnessReference,
 } from "../../core/api/types";
+import { quantityOfParameter } from "../../core/quantities";
 import { explain, perform } from "../../core/state/actions";
-import { initialValues, kinds, quantityOfParameter, readForm } from "../../core/state/kinds";
+import { initialValues, kinds, readForm } from "../../core/state/kinds";
 import { session } from "../../core/state/session";
 import { t } from "../../core/text/t";
 import { DEGREES_PER_RADIAN, formatNumber } from "../../core/units";

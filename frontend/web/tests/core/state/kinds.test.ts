@@ -1,7 +1,8 @@
 import "../../browserless";
 import { describe, expect, it } from "vitest";
 import type { FormField } from "../../../src/core/api/types";
-import { initialValues, quantityOfParameter, readForm } from "../../../src/core/state/kinds";
+import { quantityOfParameter } from "../../../src/core/quantities";
+import { initialValues, readForm } from "../../../src/core/state/kinds";
 
 const row = { symbol: "", kind: "number", default: null, low: null } as const;
 const angle = { ...row, name: "amplitude_rad", meaning: "Amplitude", unit: "rad", high: 6.3 };

@@ -1,5 +1,0 @@
-/** Made at each build: `requests.ts` of the page. */
-declare module "schema:*" {
-  const schema: import("./schema").Schema;
-  export default schema;
-}
