@@ -18,7 +18,9 @@ const FOLDERS = [
   ["core/stream"],
   ["core/api"],
   ["core/quantities", "core/readnumber"],
-  ["core/armgeometry", "core/icons", "core/text", "core/translation", "core/units"],
+  ["core/armgeometry", "core/icons", "core/translation", "core/units"],
+  ["core/text"],
+  ["core/stored"],
 ];
 
 const within = (folders) => `^src/(${folders.join("|")})(/|\\.tsx?$)`;

@@ -90,7 +90,7 @@ def driver(request: pytest.FixtureRequest, lab: Lab, still: None) -> Iterator[Dr
         return
     browser: Browser = request.getfixturevalue("browser")
     context = browser.new_context(locale=request.param)
-    context.add_init_script(RETURNING)
+    context.add_init_script(RETURNING + 'localStorage.setItem("svsa.language", "en");')
     leave_3d_empty(context)
     page = context.new_page()
     page.goto(lab.url)

@@ -54,6 +54,7 @@ import { openKinds } from "./core/state/kinds";
 import { watchComparisons } from "./core/state/lanes";
 import { openLaws } from "./core/state/laws";
 import { openStream, watchNetwork, whenReceiving } from "./core/state/session";
+import { language } from "./core/text/language";
 import { installDebugAccess } from "./debug";
 import { watchHold } from "./hardware/hold";
 import { openActuators } from "./lab/actuators/open";
@@ -66,6 +67,7 @@ import { followHistory } from "./runs/list/place";
 import { watchRecording } from "./runs/list/saved";
 import { watchLeaving } from "./teaching/course/lesson";
 
+document.documentElement.lang = language;
 render(<App />, document.getElementById("app") as HTMLElement);
 listenToKeys();
 followHistory();

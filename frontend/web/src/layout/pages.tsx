@@ -2,6 +2,7 @@ import { computed } from "@preact/signals";
 import type { ComponentChildren } from "preact";
 import { isClass, isInstructor } from "../core/state/access";
 import { session } from "../core/state/session";
+import { LANGUAGES, type Language, language, setLanguage } from "../core/text/language";
 import { t } from "../core/text/t";
 import { Popup } from "../core/widgets/popup";
 import { isOpen as isTuning } from "../lab/tuning/tuning";
@@ -162,6 +163,22 @@ export function PagesMenu() {
               <a href="docs" target="_blank" rel="noopener" onClick={close}>
                 <Entry name="docs" />
               </a>
+            </li>
+            <li>
+              <ul aria-label={t("pages.language")}>
+                {(Object.keys(LANGUAGES) as Language[]).map((code) => (
+                  <li key={code}>
+                    <button
+                      type="button"
+                      lang={code}
+                      aria-current={code === language || undefined}
+                      onClick={() => setLanguage(code)}
+                    >
+                      {LANGUAGES[code]}
+                    </button>
+                  </li>
+                ))}
+              </ul>
             </li>
           </ul>
         </nav>

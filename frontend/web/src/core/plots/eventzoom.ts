@@ -2,8 +2,8 @@
 import { computed, effect, signal } from "@preact/signals";
 import type { SessionEvent } from "../api/types";
 import type { LaneSegments } from "../state/lanes";
-import { readStored, store } from "../state/preferences";
 import { samples, selectionCount, session } from "../state/session";
+import { readStored, store } from "../stored";
 import type { SampleRing } from "../stream/ring";
 import { type ChartView, frozen, shownLaneSegments, shownRing } from "./span";
 import { mayHaveSamples, type Span } from "./spans";

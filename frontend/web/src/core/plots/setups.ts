@@ -1,6 +1,7 @@
 /** The list of plots and their channels, as the user arranged them and the browser stores them. */
 import { computed, signal } from "@preact/signals";
-import { areAllControlsOn, readStored, store } from "../state/preferences";
+import { areAllControlsOn } from "../state/preferences";
+import { readStored, store } from "../stored";
 import { sourcesOf } from "../stream/ring";
 import { CHANNELS, type ChannelName, isChannel, PRESETS, type PresetName } from "./channels";
 

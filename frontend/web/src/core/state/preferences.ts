@@ -1,22 +1,7 @@
 /** Preferences stored in this browser: theme, span of the plots, keys, and the user's name. */
 import { effect, signal } from "@preact/signals";
+import { readStored, store } from "../stored";
 import { t } from "../text/t";
-
-export function readStored(key: string): string | null {
-  try {
-    return localStorage.getItem(key);
-  } catch {
-    return null;
-  }
-}
-
-export function store(key: string, value: string): void {
-  try {
-    localStorage.setItem(key, value);
-  } catch {
-    // Without storage only the preference is lost.
-  }
-}
 
 export const WINDOWS_S = [5, 10, 20, 60] as const;
 export type WindowS = (typeof WINDOWS_S)[number];

@@ -18,6 +18,7 @@ export const pageText = {
     tabs: "Pages",
     missing: "Page not loaded. Reload the lab.",
     evaluation: "Evaluation",
+    language: "Language",
     names: {
       lab: "Lab",
       learn: "Learn",

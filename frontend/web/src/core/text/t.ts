@@ -1,9 +1,11 @@
 /**
  * `t("transport.run")`: a text of the page by its key, with named values and plural forms
- * (`key_one`, `key_other`). TypeScript compares keys and values with the English texts.
+ * (`key_one`, `key_other`). TypeScript compares keys and values with the English texts, which also
+ * replace what is not translated yet.
  */
-import i18next, { type FormatFunction, type FormatterModule } from "i18next";
+import i18next, { type FormatFunction, type FormatterModule, type ResourceKey } from "i18next";
 import { en } from "./en";
+import { language } from "./language";
 
 declare module "i18next" {
   interface CustomTypeOptions {
@@ -13,9 +15,20 @@ declare module "i18next" {
   }
 }
 
+/** A failure to load leaves the English texts. */
+async function loadTranslation(): Promise<ResourceKey> {
+  try {
+    if (language === "de") return (await import("./de.json")).default;
+    if (language === "zh-Hans") return (await import("./zh-Hans.json")).default;
+  } catch {
+    // The page works without it.
+  }
+  return {};
+}
+
 /** `{{runs, number}}`: with separators of thousands; `{{name, lowercase}}`: within a sentence. */
 const format: FormatFunction = (value, name) =>
-  name === "number" ? value.toLocaleString("en") : value.toLowerCase();
+  name === "number" ? value.toLocaleString(language) : value.toLowerCase();
 
 const formatter: FormatterModule = {
   type: "formatter",
@@ -26,9 +39,13 @@ const formatter: FormatterModule = {
 };
 
 void i18next.use(formatter).init({
-  lng: "en",
+  lng: language,
   fallbackLng: "en",
-  resources: { en: { translation: en } },
+  load: "currentOnly",
+  resources: {
+    ...(language !== "en" && { [language]: { translation: await loadTranslation() } }),
+    en: { translation: en },
+  },
   initAsync: false,
   nsSeparator: false,
   interpolation: { escapeValue: false },

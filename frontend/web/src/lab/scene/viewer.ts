@@ -1,7 +1,7 @@
 /** Access to viser's page, which has the same origin: its camera, and its graphics quality. */
 import { effect, signal } from "@preact/signals";
 import { isArm } from "../../core/state/arm";
-import { readStored, store } from "../../core/state/preferences";
+import { readStored, store } from "../../core/stored";
 import { type CameraName, placeCamera, type SceneKind, type View } from "./cameras";
 import { type Camera, placeOf } from "./ray";
 

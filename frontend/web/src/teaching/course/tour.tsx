@@ -2,8 +2,9 @@ import { signal } from "@preact/signals";
 import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import type { SessionState } from "../../core/api/types";
 import { mayCommand } from "../../core/state/control";
-import { readStored, store } from "../../core/state/preferences";
+
 import { session } from "../../core/state/session";
+import { readStored, store } from "../../core/stored";
 import { t } from "../../core/text/t";
 import { closeOnEscape } from "../../core/widgets/panel";
 import { restoreTo } from "../../lab/design/history";
