@@ -112,10 +112,14 @@ def test_rejected_value_is_explained_at_its_field_and_a_bound_is_sent_in_si(
     expect(page.get_by_text(re.compile("^Valid: "))).to_be_visible()
 
 
+ANGLE = {"type": "number", "minimum": 0, "maximum": math.pi, "unit": "rad"}
+TURN = ANGLE | {"title": "Turn", "default": 0}
 ADDED = {
-    "warm_up_rad": {"type": "number", "minimum": 0, "maximum": math.pi, "default": math.pi / 2}
+    "warm_up_rad": ANGLE
+    | {"title": "Warm-up", "default": math.pi / 2, "description": "Angle before the run"},
+    "dry": {"type": "boolean", "default": False, "title": "Without motors"},
+    "frame": {"type": "object", "properties": {"turn_rad": TURN}, "title": "Frame"},
 }
-ADDED["warm_up_rad"] |= {"title": "Warm-up", "unit": "rad", "description": "Angle before the run"}
 
 
 def test_field_that_the_schema_gains_is_rendered_and_sent(page: Page, studied: Lab) -> None:
@@ -140,10 +144,15 @@ def test_field_that_the_schema_gains_is_rendered_and_sent(page: Page, studied: L
     added.press("Tab")
     expect(page.get_by_role("alert")).to_contain_text("Warm-up: 200 deg is out of range")
     added.fill("45")
+    page.get_by_role("checkbox", name="Without motors").check()
+    page.get_by_role("group", name="Frame").get_by_role("spinbutton", name="Turn").fill("90")
     with page.expect_request("**/studies/check") as check:
         page.get_by_role("button", name="Check").click()
-    assert check.value.post_data_json["warm_up_rad"] == pytest.approx(math.pi / 4)
-    expect(page.get_by_role("alert")).to_contain_text("Warm-up")
+    sent = check.value.post_data_json
+    assert sent["warm_up_rad"] == pytest.approx(math.pi / 4)
+    assert sent["dry"] is True
+    assert sent["frame"] == {"turn_rad": pytest.approx(math.pi / 2)}
+    expect(page.get_by_role("alert")).to_contain_text(["Warm-up", "Without motors", "Frame"])
 
 
 SHARES_SHOWN = """panel => [...panel.querySelectorAll("dl > div")].map(row =>
