@@ -51,6 +51,19 @@ INVALID = [
     ("12.5\u00b0", "not a number"),
     ("361", "361 deg is out of range"),
 ]
+BOUNDS = "from \u2212360 to 360 deg"
+GERMAN = {
+    "1,000": "1.000",
+    "no number": "keine Zahl",
+    "can mean 1000 or 1.000": "kann 1000 oder 1,000 bedeuten",
+    "more than one separator": "mehr als ein Trennzeichen",
+    "a space": "ein Leerzeichen",
+    "too large": "zu gro\u00df",
+    "not a number": "keine Zahl",
+    "361 deg is out of range": "361 deg liegt au\u00dferhalb",
+    BOUNDS: "von \u2212360 bis 360 deg",
+}
+"""What the same field takes for ambiguous, and what it says, on a German page."""
 
 
 class Driver(NamedTuple):
@@ -64,6 +77,11 @@ class Driver(NamedTuple):
     """At a place of the page, up."""
     leave: Callable[[], object]
     """Leave the field."""
+    is_german: bool = False
+
+    def localize(self, text: str) -> str:
+        """Return a text or a shown number in the language of the page."""
+        return GERMAN.get(text, text.replace(".", ",")) if self.is_german else text
 
 
 @pytest.fixture(params=["en-US", "de-DE", "firefox"])
@@ -90,7 +108,7 @@ def driver(request: pytest.FixtureRequest, lab: Lab, still: None) -> Iterator[Dr
         return
     browser: Browser = request.getfixturevalue("browser")
     context = browser.new_context(locale=request.param)
-    context.add_init_script(RETURNING + 'localStorage.setItem("svsa.language", "en");')
+    context.add_init_script(RETURNING)
     leave_3d_empty(context)
     page = context.new_page()
     page.goto(lab.url)
@@ -107,7 +125,8 @@ def driver(request: pytest.FixtureRequest, lab: Lab, still: None) -> Iterator[Dr
         page.mouse.move(x, y)
         page.mouse.wheel(0, -100)
 
-    yield Driver(page.evaluate, press, paste, turn_wheel, lambda: press("Tab"))
+    is_german = request.param == "de-DE"
+    yield Driver(page.evaluate, press, paste, turn_wheel, lambda: press("Tab"), is_german)
     context.close()
 
 
@@ -128,7 +147,8 @@ def test_field_shows_what_the_lab_has(driver: Driver, lab: Lab) -> None:
     def assert_taken(expected: str) -> None:
         wait_until(
             lambda: (
-                driver.evaluate(SHOWN)["value"] in (expected, f"{float(expected):.6g}")
+                driver.evaluate(SHOWN)["value"]
+                in map(driver.localize, (expected, f"{float(expected):.6g}"))
                 and position_deg() == pytest.approx(float(expected), rel=1e-12)
             ),
             lambda: f"{driver.evaluate(SHOWN)}, expected {expected}; lab: {position_deg()}",
@@ -145,15 +165,16 @@ def test_field_shows_what_the_lab_has(driver: Driver, lab: Lab) -> None:
                 finish()
                 assert_taken(expected)
             lab.jump(2)  # At most 32 changes of a reference fade in at once.
-    for text, reason in INVALID:
+    for typed, reason in INVALID:
+        text = GERMAN.get(typed, typed) if driver.is_german else typed
         for put, finish in ((type_text, lambda: driver.press("Enter")), (paste, driver.leave)):
             type_text("7")
             put(text)
             finish()
             shown = driver.evaluate(SHOWN)
             assert (shown["value"], shown["invalid"]) == (text, "true")
-            assert reason in shown["reason"]
-            assert "from \u2212360 to 360 deg" in shown["reason"]
+            assert driver.localize(reason) in shown["reason"]
+            assert driver.localize(BOUNDS) in shown["reason"]
             assert "Position: " in shown["reason"]
             assert position_deg() == pytest.approx(10)
             driver.evaluate(f"{FIELD}.focus()")
@@ -185,12 +206,12 @@ def test_field_without_focus_is_rounded_and_keeps_the_commanded_value(
     exact = {"kind": "constant", "position_rad": 0.5}
     wait_until(lambda: driver.evaluate(f"!!({FIELD})"))
     before = lab.client.put(lab.session + "/position", json=exact).raise_for_status().json()
-    wait_until(lambda: driver.evaluate(SHOWN)["value"] == "28.6479")
+    wait_until(lambda: driver.evaluate(SHOWN)["value"] == driver.localize("28.6479"))
     assert driver.evaluate(f"{FIELD}.scrollWidth <= {FIELD}.clientWidth")
     driver.evaluate(f"({FIELD}.dispatchEvent(new FocusEvent('focus')), {FIELD}.focus())")
-    wait_until(lambda: driver.evaluate(SHOWN)["value"] == "28.6478897565")
+    wait_until(lambda: driver.evaluate(SHOWN)["value"] == driver.localize("28.6478897565"))
     driver.leave()
-    wait_until(lambda: driver.evaluate(SHOWN)["value"] == "28.6479")
+    wait_until(lambda: driver.evaluate(SHOWN)["value"] == driver.localize("28.6479"))
     driver.evaluate(f"{FIELD}.focus()")
     driver.press("ArrowUp")
     wait_until(lambda: lab.read()["revision"] != before["revision"])

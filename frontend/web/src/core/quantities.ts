@@ -1,7 +1,7 @@
 /** The numbers of the API as users read and type them: one name and one unit per field. */
 import numbers from "numbers:SinePosition ConstantPosition SineStiffness ConstantStiffness ObserverBandwidth ConstantLoad";
 import { t } from "./text/t";
-import { DEGREES_PER_RADIAN } from "./units";
+import { DEGREES_PER_RADIAN, formatFixed } from "./units";
 
 export interface Quantity {
   label: string;
@@ -134,7 +134,7 @@ export function formatPercents(shares: Shares): [string, string, string] {
   const exact = (share: number) => Number(share.toFixed(MAX_DECIMALS));
   const ends = [...new Set([0, 1, ...shares.map(exact)])];
   let decimals = DECIMALS;
-  const format = (share: number) => (100 * share).toFixed(decimals);
+  const format = (share: number) => formatFixed(100 * share, decimals);
   while (decimals < MAX_DECIMALS && new Set(ends.map(format)).size < ends.length) decimals++;
   return [format(shares[0]), format(shares[1]), format(shares[2])];
 }

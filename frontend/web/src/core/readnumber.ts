@@ -2,6 +2,7 @@
  * Numbers as users type them. The decimal sign is a point or a comma, whatever the language of the
  * browser is. What could mean two numbers is rejected, never guessed.
  */
+import { hasDecimalComma, localize } from "./text/language";
 import { t } from "./text/t";
 import { formatInput } from "./units";
 
@@ -18,8 +19,8 @@ const OTHER_SIGNS: Readonly<Record<string, string>> = {
 const AROUND = /^[\s\u200b-\u200f\u061c\u2066-\u2069]+|[\s\u200b-\u200f\u061c\u2066-\u2069]+$/g;
 const NUMBER = /^[+-]?(\d+[.,]?\d*|[.,]\d+)(e[+-]?\d{1,4})?$/i;
 const GROUPED = /^[+-]?\d[\d.,'’_\u066c\s]*$/;
-/** The page itself writes a point, so only a comma can be a thousands separator here. */
-const AMBIGUOUS = /^[+-]?[1-9]\d{0,2},\d{3}$/;
+/** Only the sign that the page itself does not write can be a thousands separator here. */
+const AMBIGUOUS = hasDecimalComma ? /^[+-]?[1-9]\d{0,2}\.\d{3}$/ : /^[+-]?[1-9]\d{0,2},\d{3}$/;
 
 /** What a field accepts, in the unit on screen. */
 export interface Demand {
@@ -60,8 +61,8 @@ export function parseNumber(typed: string): Reading {
     return {
       reason: t("numbers.ambiguous", {
         typed: trimmed,
-        whole: plain.replace(",", ""),
-        decimal: plain.replace(",", "."),
+        whole: plain.replace(/[.,]/, ""),
+        decimal: localize(plain.replace(",", ".")),
       }),
     };
   }

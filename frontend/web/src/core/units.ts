@@ -2,6 +2,8 @@
  * Conversion between SI, used internally, and the units and number formats on screen; nowhere else.
  */
 
+import { language, localize } from "./text/language";
+
 export const DEGREES_PER_RADIAN = 180 / Math.PI;
 
 export const toDegrees = (rad: number): number => rad * DEGREES_PER_RADIAN;
@@ -22,8 +24,15 @@ export function formatNumber(value: number | null | undefined, digits = 3, most 
   if (value === null || value === undefined || !Number.isFinite(value)) return "\u2013";
   const text = value.toFixed(decimalsFor(value, digits, most));
   const unsigned = text.replace("-", "");
-  return text.startsWith("-") && Number(unsigned) !== 0 ? MINUS + unsigned : unsigned;
+  return localize(text.startsWith("-") && Number(unsigned) !== 0 ? MINUS + unsigned : unsigned);
 }
+
+/** As many decimals as given, with an ASCII minus sign. */
+export const formatFixed = (value: number, decimals: number): string =>
+  localize(value.toFixed(decimals));
+
+/** A whole number with separators of thousands. */
+export const formatCount = (value: number): string => Math.round(value).toLocaleString(language);
 
 const SMALL = 1e-3;
 
@@ -36,11 +45,14 @@ export function formatError(value: number | null | undefined, digits = 3): strin
   return isSmall ? formatNumber(value, 2, 6) : formatNumber(value, digits, 4);
 }
 
+/** `digits` significant digits. */
+export const roundTo = (value: number, digits: number): number => Number(value.toPrecision(digits));
+
 /**
  * A number for an input field: short, with an ASCII minus sign, without relevant loss of precision.
  */
 export function formatInput(value: number, digits = 5): string {
-  return String(Number(value.toPrecision(digits)));
+  return localize(String(roundTo(value, digits)));
 }
 
 /** A short duration in a suitable unit: 25 µs, 1.3 ms, 2.40 s. */
@@ -62,5 +74,5 @@ export function formatTime(seconds: number): string {
   const tenths = Math.floor(Math.max(0, seconds) * 10 + 1e-6);
   const minutes = Math.floor(tenths / 600);
   const rest = (tenths % 600) / 10;
-  return `${minutes}:${rest.toFixed(1).padStart(4, "0")}`;
+  return `${minutes}:${formatFixed(rest, 1).padStart(4, "0")}`;
 }

@@ -1,7 +1,7 @@
 import type { LoopState } from "../core/api/types";
 import { isLive } from "../core/state/session";
 import { t } from "../core/text/t";
-import { formatLapse } from "../core/units";
+import { formatCount, formatLapse } from "../core/units";
 import { barsOf, decadesIn } from "./status";
 
 const WIDTH = 240;
@@ -14,7 +14,6 @@ const LEVELS = {
   gone: "bad",
   not_opened: "bad",
 } as const;
-const count = (value: number) => value.toLocaleString("en");
 
 /** Histogram of the lateness of ticks, with a logarithmic axis of counts. */
 function Lateness({ loop }: { loop: LoopState }) {
@@ -45,8 +44,8 @@ function Lateness({ loop }: { loop: LoopState }) {
           >
             <title>
               {edgeS === null
-                ? t("bench.loop.above", { ticks: count(ticks) })
-                : t("bench.loop.upTo", { edge: formatLapse(edgeS), ticks: count(ticks) })}
+                ? t("bench.loop.above", { ticks: formatCount(ticks) })
+                : t("bench.loop.upTo", { edge: formatLapse(edgeS), ticks: formatCount(ticks) })}
             </title>
           </rect>
         ))}
@@ -97,7 +96,10 @@ export function Loop({ loop }: { loop: LoopState }) {
     [t("bench.loop.cost"), lapse(loop.cost_p99_s)],
     [
       t("bench.loop.skipped"),
-      t("bench.loop.of", { skipped: count(loop.skipped_ticks), ticks: count(loop.ticks) }),
+      t("bench.loop.of", {
+        skipped: formatCount(loop.skipped_ticks),
+        ticks: formatCount(loop.ticks),
+      }),
     ],
   ] as const;
   return (

@@ -3,6 +3,7 @@ import { commandStatus } from "../core/api/outcome";
 import { perform } from "../core/state/actions";
 import { isLost, isNewInstance, phase, session } from "../core/state/session";
 import { t } from "../core/text/t";
+import { formatFixed } from "../core/units";
 import { Banner } from "../core/widgets/banner";
 import { Problem } from "../core/widgets/form";
 import { ControlBanner } from "../lab/lease/banner";
@@ -64,7 +65,8 @@ export function Banners() {
             ▲
           </span>
           <div class="grow">
-            <strong>{t("fault.title", { time: fault.time_s.toFixed(2) })}</strong> {fault.message}
+            <strong>{t("fault.title", { time: formatFixed(fault.time_s, 2) })}</strong>{" "}
+            {fault.message}
             <FaultAdvice fault={fault} />
           </div>
           <button

@@ -4,7 +4,7 @@ import { isLost } from "../core/plots/metricrows";
 import type { SampleRing } from "../core/stream/ring";
 import { t } from "../core/text/t";
 
-import { formatNumber } from "../core/units";
+import { formatFixed, formatNumber } from "../core/units";
 import { bestOf } from "../core/widgets/tables";
 import { isDisturbed } from "../runs/list/measured";
 
@@ -13,13 +13,13 @@ const inSentence = (label: string): string =>
   label.replace(/^[A-Z](?=[a-z])/, (letter) => letter.toLowerCase());
 
 const windowText = ({ label, start_s: startS }: WindowState): string =>
-  t("windows.at", { label: inSentence(label), time: startS.toFixed(2) });
+  t("windows.at", { label: inSentence(label), time: formatFixed(startS, 2) });
 
 /** Start of the window and its time, in the words of a record. */
 export const sinceOf = ({ kind, label, start_s: startS }: WindowState): string =>
   kind === "start"
     ? t("measured.start")
-    : t("measured.since", { what: label, from: startS.toFixed(2) });
+    : t("measured.since", { what: label, from: formatFixed(startS, 2) });
 
 const STEADY_STATE_S = 0.5;
 

@@ -2,7 +2,7 @@
 import type { ComponentChildren } from "preact";
 import type { Job } from "../api/jobs";
 import { t } from "../text/t";
-import { formatSeconds } from "../units";
+import { formatCount, formatFixed, formatSeconds } from "../units";
 
 export const isJobRunning = (job: Pick<Job, "status"> | null): boolean =>
   job?.status === "waiting" || job?.status === "running";
@@ -18,10 +18,7 @@ export function describeJob(job: Job | null): string[] {
     job.rate_per_s === null
       ? t("jobs.compiling")
       : t("jobs.rate", {
-          rate:
-            job.rate_per_s < 10
-              ? job.rate_per_s.toFixed(1)
-              : Math.round(job.rate_per_s).toLocaleString("en"),
+          rate: job.rate_per_s < 10 ? formatFixed(job.rate_per_s, 1) : formatCount(job.rate_per_s),
         }),
   );
   if (job.left_s !== null) parts.push(t("jobs.left", { time: formatSeconds(job.left_s) }));

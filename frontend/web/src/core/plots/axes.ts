@@ -2,7 +2,7 @@
 
 import type uPlot from "uplot";
 import { t } from "../text/t";
-import { formatNumber } from "../units";
+import { formatInput, formatNumber } from "../units";
 import { palette } from "./linestyles";
 import type { Span } from "./spans";
 
@@ -147,8 +147,7 @@ interface Scale {
   labels?: readonly string[] | null;
 }
 
-const writeDecade = (value: number | null): string =>
-  value === null ? "" : String(Number(value.toPrecision(3)));
+const writeDecade = (value: number | null): string => (value === null ? "" : formatInput(value, 3));
 
 /** An axis of any quantity, below a plot or to its left. */
 export function otherAxis(way: "x" | "y", { label, isLog, labels }: Scale = {}): uPlot.Axis {

@@ -1,5 +1,6 @@
 import type { RefObject } from "preact";
 import { t } from "../text/t";
+import { formatFixed } from "../units";
 import { CURSOR_NAMES, type CursorName, cursors, moveCursor, stepCursor } from "./cursors";
 import { shareAt } from "./gestures";
 import { frozen } from "./span";
@@ -74,7 +75,7 @@ function Handle({ name, box }: CursorProps) {
       aria-valuemin={ring.oldestTime}
       aria-valuemax={ring.newestTime}
       aria-valuenow={place.time}
-      aria-valuetext={t("cursors.value", { time: place.time.toFixed(3) })}
+      aria-valuetext={t("cursors.value", { time: formatFixed(place.time, 3) })}
       title={t("cursors.keys")}
       onKeyDown={(event) => {
         const step = STEPS[event.key];

@@ -2,6 +2,7 @@ import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import type { SessionEvent } from "../api/types";
 import { selectionCount, session } from "../state/session";
 import { t } from "../text/t";
+import { formatFixed } from "../units";
 import { closeOnEscape } from "../widgets/panel";
 import { isLoad, nameMarks, type PlacedMark, rankOf } from "./eventlines";
 import { onFrame, shareOf } from "./frame";
@@ -32,7 +33,7 @@ function Mark({ event, nextS }: MarkProps) {
     >
       <button
         type="button"
-        aria-label={t("steps.mark", { event: event.label, time: event.time_s.toFixed(2) })}
+        aria-label={t("steps.mark", { event: event.label, time: formatFixed(event.time_s, 2) })}
         aria-expanded={isOpen}
         onFocus={() => setOpen(true)}
         onBlur={() => setOpen(false)}

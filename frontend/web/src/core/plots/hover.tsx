@@ -1,7 +1,9 @@
 /** The time under the pointer, the same in all plots. */
+
 import { signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { t } from "../text/t";
+import { formatFixed } from "../units";
 import { onFrame } from "./frame";
 import { shownRing, shownSpan } from "./span";
 
@@ -33,7 +35,7 @@ export function HoverLine() {
       if (line.current === null || words.current === null) return;
       line.current.hidden = time === null;
       line.current.style.left = `${(hoverShare.peek() ?? 0) * 100}%`;
-      const next = time === null ? "" : t("plots.hovered", { seconds: time.toFixed(2) });
+      const next = time === null ? "" : t("plots.hovered", { seconds: formatFixed(time, 2) });
       if (words.current.textContent !== next) words.current.textContent = next;
     };
     const stopHover = hoverShare.subscribe(show);

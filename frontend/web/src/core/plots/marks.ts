@@ -1,7 +1,9 @@
 /** Marks behind and above the curves: bounds, and the samples under the cursors. */
+
 import type uPlot from "uplot";
 import type { SampleRing } from "../stream/ring";
 import { t } from "../text/t";
+import { formatFixed } from "../units";
 import { cursorSamples } from "./cursors";
 import { addSign, type Curve, placeOn } from "./curves";
 import { type Bound, readPiece } from "./definitions";
@@ -91,7 +93,7 @@ export function drawBeginning(plot: uPlot, curves: readonly Curve[], ring: Sampl
   const { ctx: context, bbox } = plot;
   const x = Math.min(placeOn(plot).x(begin), bbox.left + bbox.width);
   if (x <= bbox.left) return;
-  const words = t("plots.beginning", { seconds: begin.toFixed(2) });
+  const words = t("plots.beginning", { seconds: formatFixed(begin, 2) });
   const gap = 5 * devicePixelRatio;
   context.save();
   context.font = `${LABEL_PX * devicePixelRatio}px system-ui, sans-serif`;

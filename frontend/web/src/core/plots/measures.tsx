@@ -1,6 +1,6 @@
 import type { SampleRing } from "../stream/ring";
 import { t } from "../text/t";
-import { formatNumber } from "../units";
+import { formatFixed, formatNumber } from "../units";
 import { CHANNELS, type ChannelName, unitOf } from "./channels";
 import { cursorSamples } from "./cursors";
 import { readPiece, samplesOf, type Trace } from "./definitions";
@@ -99,9 +99,9 @@ export function MeasureTable() {
     <section class="column joined small tabular measures" aria-label={t("cursors.table")}>
       <dl class="row measures-head">
         <dt>{t("cursors.names.a")}</dt>
-        <dd>{t("cursors.value", { time: a.toFixed(3) })}</dd>
+        <dd>{t("cursors.value", { time: formatFixed(a, 3) })}</dd>
         <dt>{t("cursors.names.b")}</dt>
-        <dd>{t("cursors.value", { time: b.toFixed(3) })}</dd>
+        <dd>{t("cursors.value", { time: formatFixed(b, 3) })}</dd>
         <dt>{t("cursors.deltaTime")}</dt>
         <dd>{t("cursors.value", { time: formatNumber(lapse, 6, 3) })}</dd>
         <dt>{t("cursors.rate")}</dt>

@@ -3,7 +3,7 @@ import type { SessionEvent } from "../api/types";
 import { controllerAt, laneSegments } from "../state/lanes";
 import { session } from "../state/session";
 import { t } from "../text/t";
-import { formatNumber, toDegrees } from "../units";
+import { formatFixed, formatNumber, toDegrees } from "../units";
 import { Swatch } from "./legend";
 import { lineStyleOfLane } from "./linestyles";
 import { shownLaneSegments, shownRing } from "./span";
@@ -52,12 +52,14 @@ export function StepNumbers({ event, nextS }: StepNumbersProps) {
   const missingS = Math.max(0, ...rows.map(({ metrics }) => metrics?.missingS ?? 0));
   return (
     <div class="floating small step-numbers" ref={panel} role="status">
-      <strong>{t("steps.heading", { event: event.label, time: event.time_s.toFixed(2) })}</strong>
+      <strong>
+        {t("steps.heading", { event: event.label, time: formatFixed(event.time_s, 2) })}
+      </strong>
       {isHeld ? (
         <table>
           <caption>
             {Number.isFinite(untilS)
-              ? t("steps.until", { time: untilS.toFixed(2) })
+              ? t("steps.until", { time: formatFixed(untilS, 2) })
               : t("steps.untilNow")}
           </caption>
           <thead>

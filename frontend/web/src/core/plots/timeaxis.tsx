@@ -1,6 +1,7 @@
 import { useEffect, useRef } from "preact/hooks";
 import { session } from "../state/session";
 import { t } from "../text/t";
+import { formatFixed } from "../units";
 import { FONT, placeWords, timeStep } from "./axes";
 import { mayHaveZoomedSamples, zoomedEvent, zoomedSpan } from "./eventzoom";
 import { onFrame } from "./frame";
@@ -79,7 +80,7 @@ export function TimeAxis() {
   const writtenAt = useRef(0);
   const publish = () => {
     const { from, to } = shownSpan();
-    const value = t("plots.spanValue", { from: from.toFixed(2), to: to.toFixed(2) });
+    const value = t("plots.spanValue", { from: formatFixed(from, 2), to: formatFixed(to, 2) });
     axis.current?.setAttribute("aria-valuetext", value);
     axis.current?.setAttribute("aria-valuenow", to.toFixed(2));
     const { newestTime } = shownRing();
@@ -116,7 +117,8 @@ export function TimeAxis() {
 export function ZoomTitle() {
   void session.value;
   const event = zoomedEvent.value;
-  const words = event && t("zoom.title", { time: event.time_s.toFixed(2), event: event.label });
+  const words =
+    event && t("zoom.title", { time: formatFixed(event.time_s, 2), event: event.label });
   const label = words === null ? t("zoom.none") : mayHaveZoomedSamples() ? words : t("zoom.gone");
   return (
     <p class="zoom-title" title={words ?? undefined}>

@@ -1,5 +1,6 @@
 import { setWindow, WINDOWS_S, type WindowS, windowS } from "../state/preferences";
 import { t } from "../text/t";
+import { formatFixed } from "../units";
 import { useLiveText } from "../widgets/live";
 import { areCursorsOn, toggleCursors } from "./cursors";
 import { isZoomOn, toggleZoom } from "./eventzoom";
@@ -8,7 +9,7 @@ import { saveWindowCsv } from "./save";
 import { freeze, frozen, goLive, isFrozen, secondsBehind, showLength, zoom } from "./span";
 
 const ZOOM = 1.6;
-const readBehind = () => t("plots.behind", { seconds: secondsBehind().toFixed(1) });
+const readBehind = () => t("plots.behind", { seconds: formatFixed(secondsBehind(), 1) });
 
 function WindowPicker() {
   const span = frozen.value;

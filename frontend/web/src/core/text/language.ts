@@ -43,6 +43,16 @@ export const language: Language =
     ? "en"
     : chooseLanguage([readStored(STORE) ?? "", ...(globalThis.navigator?.languages ?? [])]);
 
+const DECIMAL_SIGN =
+  new Intl.NumberFormat(language).formatToParts(0.5).find(({ type }) => type === "decimal")
+    ?.value ?? ".";
+
+/** Whether the page writes a decimal comma. */
+export const hasDecimalComma = DECIMAL_SIGN === ",";
+
+/** A number for the screen. Data, files, addresses and scripts keep the point. */
+export const localize = (digits: string): string => digits.replace(".", DECIMAL_SIGN);
+
 /** Texts are also read while modules load, so the page loads again. */
 export function setLanguage(chosen: Language): void {
   store(STORE, chosen);

@@ -5,7 +5,7 @@
  */
 import i18next, { type FormatFunction, type FormatterModule, type ResourceKey } from "i18next";
 import { en } from "./en";
-import { language } from "./language";
+import { language, localize } from "./language";
 
 declare module "i18next" {
   interface CustomTypeOptions {
@@ -27,8 +27,11 @@ async function loadTranslation(): Promise<ResourceKey> {
 }
 
 /** `{{runs, number}}`: with separators of thousands; `{{name, lowercase}}`: within a sentence. */
-const format: FormatFunction = (value, name) =>
-  name === "number" ? value.toLocaleString(language) : value.toLowerCase();
+const format: FormatFunction = (value, name) => {
+  if (name === "number") return value.toLocaleString(language);
+  if (name === "lowercase") return value.toLowerCase();
+  return typeof value === "number" ? localize(String(value)) : value;
+};
 
 const formatter: FormatterModule = {
   type: "formatter",
@@ -48,7 +51,7 @@ void i18next.use(formatter).init({
   },
   initAsync: false,
   nsSeparator: false,
-  interpolation: { escapeValue: false },
+  interpolation: { escapeValue: false, alwaysFormat: true },
 });
 
 export const { t } = i18next;

@@ -1,9 +1,11 @@
 /** Points and feedback by criterion. */
+
 import type { Grade } from "../api/course";
 import { t } from "../text/t";
+import { formatInput } from "../units";
 import { Table } from "./tables";
 
-export const formatPoints = (points: number): string => String(Number(points.toFixed(2)));
+export const formatPoints = (points: number): string => formatInput(Number(points.toFixed(2)), 15);
 
 export function Criteria({ grade }: { grade: Grade }) {
   return (

@@ -3,7 +3,7 @@ import type { ComponentChildren, HTMLAttributes } from "preact";
 import { useEffect, useId, useLayoutEffect, useRef, useState } from "preact/hooks";
 import { type Demand, readNumber, stepNumber } from "../readnumber";
 import { t } from "../text/t";
-import { formatInput } from "../units";
+import { formatInput, roundTo } from "../units";
 import { MathSymbol } from "./symbol";
 
 const EXACT_DIGITS = 12;
@@ -106,7 +106,8 @@ export function NumberInput(props: NumberInputProps) {
       return;
     }
     setReason("");
-    const isSame = pending.current === 0 && reading.value === Number(held);
+    const isHeld = value !== null && reading.value === roundTo(value, EXACT_DIGITS);
+    const isSame = pending.current === 0 && isHeld;
     if (reading.value === null || isSame) return restore();
     pending.current += 1;
     const isTaken = (await onCommit?.(reading.value)) !== false;

@@ -47,7 +47,7 @@ export function describeTerms(terms: readonly Term[], schema: Schema): string {
       const { title = kind, schema: own } = kinds.get(kind) ?? {};
       const names = own?.properties?.bodies?.choices ?? {};
       const on = bodies.map((body) => names[body]).join(", ");
-      return t("falsifier.term", { kind: title, torque, bodies: on });
+      return t("falsifier.term", { kind: title, torque: String(torque), bodies: on });
     })
     .join("; ")
     .slice(0, 200);

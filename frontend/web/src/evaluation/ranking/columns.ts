@@ -1,7 +1,8 @@
 /** The columns of the ranking: content and sort key. */
 import type { Family, Outcome, Results, Row } from "../../core/api/ranking";
+import { localize } from "../../core/text/language";
 import { t } from "../../core/text/t";
-import { formatNumber, toDegrees } from "../../core/units";
+import { formatFixed, formatNumber, toDegrees } from "../../core/units";
 import { type SortColumn, sortBy } from "../../core/widgets/tables";
 
 const MIDDLE = 4;
@@ -35,11 +36,11 @@ export const rankOf = (results: Results, key: string) =>
 const successOf = (family: Family | undefined): number =>
   family === undefined ? 0 : family.held / family.trials;
 
-const writePercent = (share: number): string => (100 * share).toFixed(1);
+const writePercent = (share: number): string => formatFixed(100 * share, 1);
 
 function writeP(value: number | null): string {
   if (value === null) return "–";
-  return value < 0.001 ? "< 0.001" : value.toPrecision(2);
+  return value < 0.001 ? `< ${formatFixed(0.001, 3)}` : localize(value.toPrecision(2));
 }
 
 /** The success rate with Wilson's interval, from the server. */

@@ -5,7 +5,7 @@ import { formatShare } from "../../core/quantities";
 import { writeFault } from "../../core/state/faults";
 import { titleOf } from "../../core/state/laws";
 import { t } from "../../core/text/t";
-import { formatNumber } from "../../core/units";
+import { formatCount, formatNumber } from "../../core/units";
 import { Table } from "../../core/widgets/tables";
 import { columnOf, endedInFault, lawLineStyles, marksOf, succeeded } from "./drawnrows";
 import { shareOf } from "./shares";
@@ -82,7 +82,7 @@ export function LawTable() {
               <th scope="row">
                 <LawName law={law} place={place} />
               </th>
-              <td>{lawRow?.runs.toLocaleString("en") ?? "–"}</td>
+              <td>{lawRow ? formatCount(lawRow.runs) : "–"}</td>
               <td>{lawRow ? formatShare(lawRow.success) : "–"}</td>
               {brush.value && <td>{inBrush(place)}</td>}
               <td>

@@ -1,6 +1,6 @@
 import { useId } from "preact/hooks";
 import { t } from "../../core/text/t";
-import { formatInput } from "../../core/units";
+import { formatInput, roundTo } from "../../core/units";
 import { NumberInput } from "../../core/widgets/numberinput";
 import { positionOf, type SliderRange, STEPS, valueAt } from "../../core/widgets/scale";
 import { draft, type Group, setDraftObserver, setDraftPoles } from "./draft";
@@ -35,9 +35,7 @@ function Row({ look, label, name, note, value, range, onTry }: RowProps) {
         value={positionOf(value, range)}
         aria-label={t("controls.slider", { label: name })}
         aria-valuetext={`${formatInput(value, 3)} ${t("design.unit")}`}
-        onInput={(event) =>
-          onTry(Number(formatInput(valueAt(event.currentTarget.valueAsNumber, range), 3)))
-        }
+        onInput={(event) => onTry(roundTo(valueAt(event.currentTarget.valueAsNumber, range), 3))}
       />
       <NumberInput
         id={id}

@@ -4,7 +4,7 @@ import { settings } from "../../core/state/arm";
 import { titleOf, usableLaws } from "../../core/state/laws";
 import { findStiffness } from "../../core/state/stiffness";
 import { t } from "../../core/text/t";
-import { formatInput, formatNumber } from "../../core/units";
+import { formatNumber, roundTo } from "../../core/units";
 import { ErrorLine, SelectField } from "../../core/widgets/form";
 import { NumberField } from "../../core/widgets/numberinput";
 import {
@@ -121,7 +121,7 @@ export function RegionMap() {
   const [typed, setTyped] = useState<number | null>(null);
   const present =
     draftResponse.value?.stiffness_nm_per_rad ?? (configuration && findStiffness(configuration));
-  const sigma = typed ?? Number(formatInput(present ?? 0, 3));
+  const sigma = typed ?? roundTo(present ?? 0, 3);
   const limits = configuration?.limits;
   const part = restShare.value;
   const region = shownRegion.value;

@@ -1,7 +1,7 @@
 /** Poles and numbers of a design as text. */
 import type { DesignResponse, Margins, Prediction, Stability } from "../../core/api/design";
 import { t } from "../../core/text/t";
-import { formatInput, formatNumber, toDegrees } from "../../core/units";
+import { formatFixed, formatInput, formatNumber, toDegrees } from "../../core/units";
 import { countPlaces, type Pole, type Poles } from "./poles";
 
 const MINUS = "\u2212";
@@ -48,7 +48,7 @@ export function caveatOf(
   return {
     short: t(`stability.unstableOn.${encoders}.short`),
     summary: t(`stability.unstableOn.${encoders}.summary`, {
-      pole: response.largest_pole.toFixed(4),
+      pole: formatFixed(response.largest_pole, 4),
     }),
   };
 }

@@ -1,6 +1,6 @@
 import { useId } from "preact/hooks";
 import { t } from "../../core/text/t";
-import { formatInput } from "../../core/units";
+import { formatInput, roundTo } from "../../core/units";
 import { Problem } from "../../core/widgets/form";
 import { NumberField } from "../../core/widgets/numberinput";
 import { positionOf, type SliderRange, STEPS, valueAt } from "../../core/widgets/scale";
@@ -29,7 +29,7 @@ export function Field({ name, value, send, factor = 1, range, ...field }: FieldP
   });
   const { label, labelRest, unit } = field;
   const fromSlider = ({ currentTarget }: { currentTarget: HTMLInputElement }) =>
-    Number(formatInput(valueAt(currentTarget.valueAsNumber, range as SliderRange), 3));
+    roundTo(valueAt(currentTarget.valueAsNumber, range as SliderRange), 3);
   return (
     <NumberField
       {...field}

@@ -3,8 +3,9 @@ import type { Follows, Reference } from "../../core/api/design";
 import type { Configuration } from "../../core/api/types";
 import { type Demand, parseNumber } from "../../core/readnumber";
 import { findStiffness } from "../../core/state/stiffness";
+import { hasDecimalComma } from "../../core/text/language";
 import { t } from "../../core/text/t";
-import { DEGREES_PER_RADIAN, formatInput } from "../../core/units";
+import { DEGREES_PER_RADIAN, formatInput, roundTo } from "../../core/units";
 
 /** Kinds with their own form; any other is described by the server. */
 export type Listed = "steps" | "series";
@@ -22,7 +23,7 @@ export function firstSteps(follows: Follows, configuration: Configuration): Reco
   if (follows === "position") return { low: -20, high: 20, ...timing };
   const low = findStiffness(configuration);
   const high = Math.min(2 * low, configuration.limits.stiffness_max_nm_per_rad);
-  return { low: Number(formatInput(low, 3)), high: Number(formatInput(high, 3)), ...timing };
+  return { low: roundTo(low, 3), high: roundTo(high, 3), ...timing };
 }
 
 /** The points of a polyline in a box of this size, with the greatest value on top. */
@@ -55,7 +56,13 @@ const GAP = /\s*;\s*|\s*,\s+|\s+/;
 export function writeLevels({ low, high, hold, count }: Record<Input, number>): string {
   const numbers = Array.from({ length: count + 1 }, (_, number) => number);
   const timeOf = (number: number) => Number((number * hold).toPrecision(12));
-  return numbers.map((number) => `${timeOf(number)}, ${number % 2 === 0 ? low : high}`).join("\n");
+  return numbers
+    .map((number) =>
+      [timeOf(number), number % 2 === 0 ? low : high]
+        .map((value) => formatInput(value, 12))
+        .join(hasDecimalComma ? "; " : ", "),
+    )
+    .join("\n");
 }
 
 /** The reference of a list; throws a `RangeError` that contains the invalid line. */

@@ -1,6 +1,8 @@
 /** Text for the window of a run in which its metrics were measured. */
+
 import type { MeasuredWindow, RunSummary } from "../../core/api/types";
 import { t } from "../../core/text/t";
+import { formatFixed } from "../../core/units";
 
 export type Measured = Pick<
   MeasuredWindow,
@@ -23,8 +25,8 @@ export function describeMeasured(window: Measured, isNamed = false): string {
     ? t("measured.whole")
     : t("measured.during", {
         what: label || t("measured.start"),
-        from: start.toFixed(2),
-        to: end.toFixed(2),
+        from: formatFixed(start, 2),
+        to: formatFixed(end, 2),
       });
   return isNamed ? t("measured.controlled", { lanes: lanes.join(" / "), what }) : what;
 }

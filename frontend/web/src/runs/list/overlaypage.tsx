@@ -11,6 +11,7 @@ import {
   wholeOf,
 } from "../../core/plots/staticchart";
 import { t } from "../../core/text/t";
+import { formatFixed } from "../../core/units";
 import { DifferenceTable } from "./differencetable";
 import { drawBands, drawEdges, drawOutside, drawWorst } from "./drawnverdict";
 import {
@@ -98,7 +99,10 @@ const isMeasuredInPart = ({ startS, changedS }: OverlayCurve): boolean =>
   startS !== 0 || changedS !== null;
 
 const measuredOf = ({ startS, changedS, time }: OverlayCurve): string =>
-  t("overlay.measured", { from: startS.toFixed(2), to: (changedS ?? time.at(-1) ?? 0).toFixed(2) });
+  t("overlay.measured", {
+    from: formatFixed(startS, 2),
+    to: formatFixed(changedS ?? time.at(-1) ?? 0, 2),
+  });
 
 function Remark({ curve }: { curve: OverlayCurve }) {
   return (

@@ -1,7 +1,9 @@
 /** A run as text. */
+
 import type { RunDetails } from "../../core/api/types";
 import { describeLaw } from "../../core/state/laws";
 import { t } from "../../core/text/t";
+import { formatFixed } from "../../core/units";
 import type { Filter } from "./list";
 
 const DAY = new Intl.DateTimeFormat("en-GB", {
@@ -46,7 +48,7 @@ export function formatLength(
   const length = formatDuration(run.duration_s);
   return run.first_tick === 0
     ? length
-    : t("run.lengthFrom", { length, start: (run.first_tick * run.period_s).toFixed(2) });
+    : t("run.lengthFrom", { length, start: formatFixed(run.first_tick * run.period_s, 2) });
 }
 
 /** Text of a value by which runs are filtered. */

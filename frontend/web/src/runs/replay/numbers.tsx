@@ -5,7 +5,7 @@ import { type MetricsColumn, MetricsTable } from "../../core/plots/metricstable"
 import { LANES_OF_ARM } from "../../core/state/joints";
 import { t } from "../../core/text/t";
 
-import { formatNumber, toDegrees } from "../../core/units";
+import { formatFixed, formatNumber, toDegrees } from "../../core/units";
 import { describeMeasured, explainSteadyState, isDisturbed } from "../list/measured";
 import { isPlaying, seek } from "./clock";
 import type { Recording, Run } from "./data";
@@ -108,7 +108,7 @@ function Events({ run }: { run: Run }) {
             <button
               type="button"
               aria-label={t("replay.events.jump", {
-                time: t("replay.transport.seconds", { seconds: event.time_s.toFixed(2) }),
+                time: t("replay.transport.seconds", { seconds: formatFixed(event.time_s, 2) }),
                 label: event.label,
               })}
               onClick={() => {
@@ -117,7 +117,7 @@ function Events({ run }: { run: Run }) {
               }}
             >
               <span class="number hint">
-                {t("replay.transport.seconds", { seconds: event.time_s.toFixed(2) })}
+                {t("replay.transport.seconds", { seconds: formatFixed(event.time_s, 2) })}
               </span>{" "}
               {event.label}
             </button>

@@ -1,6 +1,7 @@
 import { useSignalEffect } from "@preact/signals";
 import { useRef } from "preact/hooks";
 import { t } from "../../core/text/t";
+import { formatFixed } from "../../core/units";
 import {
   isPlaying,
   isWholeRun,
@@ -21,7 +22,7 @@ function Scrubber({ recording: { run, endS } }: { recording: Recording }) {
   const input = useRef<HTMLInputElement>(null);
   const output = useRef<HTMLOutputElement>(null);
   useSignalEffect(() => {
-    const seconds = t("replay.transport.seconds", { seconds: timeS.value.toFixed(2) });
+    const seconds = t("replay.transport.seconds", { seconds: formatFixed(timeS.value, 2) });
     if (output.current) output.current.textContent = seconds;
     if (input.current === null) return;
     input.current.value = String(timeS.value);
@@ -34,7 +35,7 @@ function Scrubber({ recording: { run, endS } }: { recording: Recording }) {
         <output ref={output} aria-label={t("replay.transport.time")} />
         <span>
           {t("replay.transport.of", {
-            duration: t("replay.transport.seconds", { seconds: endS.toFixed(2) }),
+            duration: t("replay.transport.seconds", { seconds: formatFixed(endS, 2) }),
           })}
         </span>
       </div>

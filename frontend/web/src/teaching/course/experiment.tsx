@@ -1,10 +1,12 @@
 /** An experiment step: set up a session, run it, and assess its record. */
+
 import { useEffect } from "preact/hooks";
 import type { Step } from "../../core/api/course";
 import { mayCommand } from "../../core/state/control";
 import { bench } from "../../core/state/plant";
 import { session } from "../../core/state/session";
 import { t } from "../../core/text/t";
+import { formatFixed } from "../../core/units";
 import { Banner } from "../../core/widgets/banner";
 import { Problem } from "../../core/widgets/form";
 import { isSwitchHeld } from "../../hardware/hold";
@@ -82,7 +84,7 @@ function Running({ of }: { of: Step }) {
       {now.isAssessing
         ? t("lesson.judging")
         : t("lesson.seconds", {
-            now: Math.min(state?.time_s ?? 0, now.endS).toFixed(1),
+            now: formatFixed(Math.min(state?.time_s ?? 0, now.endS), 1),
             end: now.endS,
           })}
     </p>

@@ -1,4 +1,5 @@
 /** Obstacles to starting a step here, and the possible solutions. */
+
 import type { Step } from "../../core/api/course";
 import { isInstructor, isObserver } from "../../core/state/access";
 import {
@@ -12,6 +13,7 @@ import {
 import { bench } from "../../core/state/plant";
 import { isLive, session } from "../../core/state/session";
 import { t } from "../../core/text/t";
+import { formatFixed } from "../../core/units";
 import { isSwitchHeld } from "../../hardware/hold";
 import { PrivateSessionButton } from "../../lab/lease/privatesession";
 import { isOfSession, isPossibleOn, readinessOf } from "./benchstep";
@@ -55,7 +57,7 @@ export function CutOff({ of }: { of: Step }) {
   if (last?.step !== of.name) return null;
   return (
     <p class="note is-bad" role="alert">
-      {t(`lesson.cut.${last.why}`, { time: last.timeS.toFixed(1) })} {t("lesson.cutAgain")}
+      {t(`lesson.cut.${last.why}`, { time: formatFixed(last.timeS, 1) })} {t("lesson.cutAgain")}
     </p>
   );
 }

@@ -1,11 +1,13 @@
 /** Prediction of a number before the run that it is compared with. */
+
 import { useState } from "preact/hooks";
 import { t } from "../../core/text/t";
+import { formatInput } from "../../core/units";
 import { NumberField } from "../../core/widgets/numberinput";
 import { answer, type TaskProps } from "./lesson";
 import { Results } from "./results";
 
-const formatBound = (value: number) => String(Number(value.toPrecision(6)));
+const formatBound = (value: number) => formatInput(value, 6);
 
 export function Prediction({ of, exercise, onDone }: TaskProps) {
   const [isChanging, setChanging] = useState(false);
@@ -23,7 +25,7 @@ export function Prediction({ of, exercise, onDone }: TaskProps) {
       <>
         <p class="note">
           <strong>
-            {t("lesson.kept", { answer: String(savedAnswer), unit: of.unit && ` ${of.unit}` })}
+            {t("lesson.kept", { answer: savedAnswer ?? "", unit: of.unit && ` ${of.unit}` })}
           </strong>{" "}
           {of.is_final ? t("lesson.isKept") : t("lesson.keptHint")}
         </p>

@@ -2,6 +2,7 @@ import type { CriterionResult, Step } from "../../core/api/course";
 import { showSpan } from "../../core/plots/span";
 import { samples, session } from "../../core/state/session";
 import { t } from "../../core/text/t";
+import { formatFixed } from "../../core/units";
 import { goTo } from "../../runs/list/place";
 import { stepRun } from "./steprun";
 
@@ -55,7 +56,7 @@ export function Results({
                 title={t("lesson.showHint")}
                 onClick={() => showInPlots(run, result.time_s as number)}
               >
-                {t("lesson.show", { time: result.time_s.toFixed(2) })}
+                {t("lesson.show", { time: formatFixed(result.time_s, 2) })}
               </button>
             )}
           </li>

@@ -1,7 +1,7 @@
 import type { BoardEntry } from "../../core/api/ranking";
 import { titleOf } from "../../core/state/laws";
 import { t } from "../../core/text/t";
-import { formatNumber } from "../../core/units";
+import { formatFixed, formatNumber } from "../../core/units";
 import { SortHeads } from "../../core/widgets/tables";
 import { PlaceLink } from "../../runs/list/place";
 import { formatMoment, formatMomentShort } from "../../runs/list/words";
@@ -13,11 +13,11 @@ function Success({ standing }: BoardEntry) {
   const { success, low, high, trials, trials_held } = standing;
   return (
     <td class="number" title={t("leaderboard.trialsHeld", { held: trials_held, of: trials })}>
-      <strong>{t("leaderboard.percent", { share: (100 * success).toFixed(1) })}</strong>{" "}
+      <strong>{t("leaderboard.percent", { share: formatFixed(100 * success, 1) })}</strong>{" "}
       <small title={t("leaderboard.intervalHint")}>
         {t("leaderboard.interval", {
-          low: t("leaderboard.percent", { share: (100 * low).toFixed(1) }),
-          high: t("leaderboard.percent", { share: (100 * high).toFixed(1) }),
+          low: t("leaderboard.percent", { share: formatFixed(100 * low, 1) }),
+          high: t("leaderboard.percent", { share: formatFixed(100 * high, 1) }),
         })}
       </small>
     </td>
@@ -58,7 +58,7 @@ function Row({ entry }: { entry: BoardEntry }) {
           ? t("leaderboard.ended")
           : formatNumber(standing.median_rms_deg)}
       </td>
-      <td class="number">{standing.tick_us === null ? "–" : standing.tick_us.toFixed(1)}</td>
+      <td class="number">{standing.tick_us === null ? "–" : formatFixed(standing.tick_us, 1)}</td>
       <td class="is-worst">
         <PlaceLink
           to={{ kind: "leaderboard", entry: entry.key }}

@@ -1,6 +1,6 @@
 import { worstRunAddress } from "../../core/api/ranking";
 import { t } from "../../core/text/t";
-import { formatNumber } from "../../core/units";
+import { formatFixed, formatNumber } from "../../core/units";
 import { PlaceLink } from "../../runs/list/place";
 import { ReplayFrame } from "../../runs/list/replayframe";
 import { nameOf } from "./columns";
@@ -42,7 +42,7 @@ export function WorstRun() {
             {worst.problem && ` · ${worst.problem}`} ·{" "}
             {t("leaderboard.standing", {
               rank: entry.rank,
-              success: t("leaderboard.percent", { share: (100 * success).toFixed(1) }),
+              success: t("leaderboard.percent", { share: formatFixed(100 * success, 1) }),
             })}
           </p>
           <p class="hint">

@@ -96,6 +96,35 @@ describe("the texts of a page", () => {
     expect((await open(["zh-SG"], "de"))("transport.speed")).toBe("Tempo");
   });
 
+  test("have numbers with the decimal sign of the language, also in fields", async () => {
+    const t = await open(["de"]);
+    const { formatInput, formatNumber, formatTime, roundTo } = await import(
+      "../../../src/core/units"
+    );
+    const { parseNumber } = await import("../../../src/core/readnumber");
+    expect(t("transport.seconds", { seconds: 0.5 })).toBe("0,5 s");
+    expect([formatNumber(-1.25), formatInput(28.6479, 6), formatTime(75.25)]).toEqual([
+      "\u22121,25",
+      "28,6479",
+      "1:15,2",
+    ]);
+    expect(roundTo(28.6479, 3)).toBe(28.6);
+    expect(["28,648", "0.5", "1.25", "12,5"].map(parseNumber)).toEqual(
+      [28.648, 0.5, 1.25, 12.5].map((value) => ({ value })),
+    );
+    expect(parseNumber("1.234")).toEqual({
+      reason: "„1.234“ kann 1234 oder 1,234 bedeuten. Geben Sie eines davon ein.",
+    });
+  });
+
+  test("a list of steps is read as it was written", async () => {
+    await open(["de"]);
+    const { readLevels, writeLevels } = await import("../../../src/lab/panels/shapes");
+    const list = writeLevels({ low: 1.125, high: 20.5, hold: 1.125, count: 2 });
+    expect(list).toBe("0; 1,125\n1,125; 20,5\n2,25; 1,125");
+    expect(readLevels("stiffness", list)).toMatchObject({ time_s: [0, 1.125, 2.25] });
+  });
+
   test("are English where a translation is missing", async () => {
     const t = await open(["zh-CN"]);
     expect(t("laws.found", { count: 1 })).toBe("1 个控制律");
