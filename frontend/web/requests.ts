@@ -53,7 +53,7 @@ function tabulateNumbers(names: string, schemas: Schemas): object {
  */
 export const requestSchemas = (schemas: Schemas): Plugin => ({
   name: "svsa-request-schemas",
-  resolveId: (id) => (PREFIX.test(id) ? `\0${id}` : null),
+  resolveId: (id) => (PREFIX.test(id) ? `\0${id.replace("\0", "")}` : null),
   load: (id) => {
     if (!PREFIX.test(id)) return null;
     const names = id.replace(PREFIX, "");
