@@ -181,7 +181,7 @@ def _flatten_model(model: BaseModel) -> Iterator[tuple[tuple[str, str], Value]]:
         value = getattr(model, field)
         extra = about.json_schema_extra
         unit = str(extra.get("unit", "")) if isinstance(extra, dict) else ""
-        name = (about.description or "Form").removesuffix(f", {unit}")
+        name = "Form" if field == "kind" else (about.description or "").removesuffix(f", {unit}")
         is_part = isinstance(value, BaseModel)
         if value is None or is_part:
             yield (name, ""), "on" if is_part else "off"

@@ -23,7 +23,6 @@ import {
   type Schema,
   type Values,
 } from "./schema";
-import "./forms.css";
 
 /** The choices of a field, or of the items of a list; null if it is free. */
 function useOffered(name: string, schema: Schema): Offered | null {
