@@ -55,3 +55,10 @@ def test_bodies_of_urdf_are_those_of_mjcf():
             torques.append(moved.copy())
         torques += [data.qfrc_bias.copy(), model.dof_damping]
     np.testing.assert_allclose(torques[:6], torques[6:], rtol=1e-8, atol=1e-12)
+
+
+@pytest.mark.parametrize(("actuator", "torque_nm"), [("svsa", 15.0), ("qbmove", 12.0)])
+def test_limit_of_u1_is_the_sum_of_both_motors_that_pull_against_each_other(actuator, torque_nm):
+    text = svsa.describe_robot(build_actuator_experiment(actuator, "fl", False))
+    model = mujoco.MjModel.from_xml_string(text)
+    assert model.actuator_ctrlrange.tolist() == [[-torque_nm, torque_nm]]

@@ -16,6 +16,7 @@ import numpy as np
 from svsa.actuators.domain import build_domain, compute_deflection_limit
 from svsa.actuators.dynamics import build_actuator
 from svsa.actuators.elasticity import compute_coordinate_for_stiffness, compute_torques
+from svsa.actuators.installed import find_mechanism
 from svsa.errors import ParameterError, Violation
 from svsa.runs.definition.arm_experiment import split_joints
 from svsa.runs.definition.configuration import Configuration
@@ -85,9 +86,8 @@ def describe_robot(configuration: Configuration, file_format: str = "mjcf") -> s
         raise ParameterError(Violation("file_format", file_format, "", "mjcf or urdf"))
     bodies = _list_bodies(configuration)
     springs = [_fit_spring(joint) for joint in split_joints(configuration)]
-    root = _write_mjcf(configuration, bodies, springs)
-    if file_format == "urdf":
-        root = _write_urdf(bodies)
+    is_urdf = file_format == "urdf"
+    root = _write_urdf(bodies) if is_urdf else _write_mjcf(configuration, bodies, springs)
     for number, spring in enumerate(springs, start=1):
         root.insert(number - 1, Comment(f" spring {number}: {spring.description} "))
     indent(root)
@@ -113,9 +113,15 @@ def _list_bodies(configuration: Configuration) -> list[Body]:
             bodies.append(Body("tip", "", "link2", -a.length2_m, 0.0, a.tip_mass_kg, _SMALL))
     for number, joint in enumerate(joints, start=1):
         p = joint.actuator
-        own = p.motor1_inertia_kg_m2, p.motor1_damping_nms_per_rad, joint.limits.torque1_nm
+        own = p.motor1_inertia_kg_m2, p.motor1_damping_nms_per_rad, _find_torque_limit(joint)
         bodies.append(Body(f"rotor{number}", f"motor{number}", "", 0.0, 0.0, 1.0, *own))
     return bodies
+
+
+def _find_torque_limit(joint: Configuration) -> float:
+    """Return the limit of u1, N·m: two motors that pull against each other add theirs."""
+    motors = 2.0 if find_mechanism(joint.actuator).antagonistic else 1.0
+    return motors * joint.limits.torque1_nm
 
 
 def _fit_spring(joint: Configuration) -> Spring:
@@ -129,7 +135,7 @@ def _fit_spring(joint: Configuration) -> Spring:
     limit = compute_deflection_limit(build_domain(joint.actuator, joint.limits), plant, s)
     phi = np.linspace(0.0, limit, _POINTS)
     torque = np.array([compute_torques(plant, s, float(angle)).torque for angle in phi])
-    phi = phi[: max(np.count_nonzero(torque <= joint.limits.torque1_nm), 2)]
+    phi = phi[: max(np.count_nonzero(torque <= _find_torque_limit(joint)), 2)]
     rest, cube = torque[: len(phi)] - sigma * phi, phi**3
     share = cube[1:] / torque[1 : len(phi)]
     k3 = float(share @ (rest[1:] / torque[1 : len(phi)]) / (share @ share))
