@@ -127,13 +127,11 @@ export function Flag({ path, schema, value, onChange }: FieldProps) {
   );
 }
 
-export function Select({
-  path,
-  schema,
-  value,
-  onChange,
-  offered,
-}: FieldProps & { offered: Offered }) {
+interface ChoiceProps extends FieldProps {
+  offered: Offered;
+}
+
+export function Select({ path, schema, value, onChange, offered }: ChoiceProps) {
   const { title = "", description = "", isOptional, empty = "–" } = readField(schema);
   const held = String(value ?? "");
   const names = offered.map(({ name }) => name);
@@ -157,13 +155,7 @@ const MAX_VISIBLE = 6;
 const MAX_NAMED = 3;
 
 /** Any of several choices, one check box each. */
-export function Selection({
-  path,
-  schema,
-  value,
-  onChange,
-  offered,
-}: FieldProps & { offered: Offered }) {
+export function Selection({ path, schema, value, onChange, offered }: ChoiceProps) {
   const { title = "", description, empty = "", minItems = 0, isOptional } = readField(schema);
   const chosen = (value ?? []) as readonly string[];
   const isLast = !isOptional && chosen.length <= minItems;

@@ -9,7 +9,7 @@ export const armText = {
     torqueOn2: "The torque acts on joint 2.",
     onJoint: "On joint {{joint}}",
     both: "A change applies to both joints.",
-    one: "A change applies to joint {{joint}} only.",
+    onlyJoint: "A change applies to joint {{joint}} only.",
     differ: "The joints differ; the values shown are those of joint 1.",
     feedforward: "Arm feedforward",
     feedforwardHint: "Adds the torques of the arm's model along the reference",

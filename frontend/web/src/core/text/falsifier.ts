@@ -28,7 +28,7 @@ export const falsifierText = {
     worstSoFar: "Worst so far",
     simplest: "Simplified load with the same failure",
     nothingYet: "No result yet: compiling takes a few seconds.",
-    found: "{{law}}: {{outcome}}",
+    lawOutcome: "{{law}}: {{outcome}}",
     foundAt: "found at run {{run, number}} of {{runs, number}}, seed {{seed}}",
     neighborhood: "{{failed}} of {{runs}} random loads near it fail equally: {{share}}",
     neighborhoodHint:

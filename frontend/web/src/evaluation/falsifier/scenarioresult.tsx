@@ -70,7 +70,9 @@ function Facts({ scenario }: { scenario: Scenario }) {
     <>
       {finding && (
         <p>
-          <b>{t("falsifier.found", { law: titleOf(finding.law), outcome: finding.outcome })}</b>{" "}
+          <b>
+            {t("falsifier.lawOutcome", { law: titleOf(finding.law), outcome: finding.outcome })}
+          </b>{" "}
           <span class="hint">
             {t("falsifier.foundAt", {
               run: finding.at_run,

@@ -148,7 +148,7 @@ export function ArmGroup({ state, isBasic }: { state: SessionState; isBasic: boo
     >
       {!isBasic && (
         <p class="hint is-about">
-          {choice === "both" ? t("arm.both") : t("arm.one", { joint: choice })}
+          {choice === "both" ? t("arm.both") : t("arm.onlyJoint", { joint: choice })}
         </p>
       )}
       <div class="row joined">

@@ -82,7 +82,7 @@ function LawList({ value, onChoose }: LawListProps) {
         />
       )}
       <span class="visually-hidden" role="status">
-        {query.trim() !== "" && t("laws.found", { count: matches.length })}
+        {query.trim() !== "" && t("laws.matching", { count: matches.length })}
       </span>
       {groupLaws(matches).map(({ estimate, laws }) => (
         <section key={estimate} aria-labelledby={isMany ? `${id}-${estimate}` : undefined}>

@@ -6,12 +6,12 @@ import zh from "../../../src/core/text/zh-Hans.json";
 
 type Leaves = Map<string, string>;
 
-function leaves(value: object, path = "", found: Leaves = new Map()): Leaves {
+function leaves(value: object, path = "", texts: Leaves = new Map()): Leaves {
   for (const [key, inner] of Object.entries(value)) {
-    if (typeof inner === "string") found.set(path + key, inner);
-    else leaves(inner, `${path}${key}.`, found);
+    if (typeof inner === "string") texts.set(path + key, inner);
+    else leaves(inner, `${path}${key}.`, texts);
   }
-  return found;
+  return texts;
 }
 
 const ENGLISH = leaves(en);
@@ -86,7 +86,7 @@ describe("the texts of a page", () => {
   test("are those of the browser's language, with its plural forms", async () => {
     const t = await open(["de-CH", "en"]);
     expect(t("transport.speed")).toBe("Tempo");
-    expect([1, 2].map((count) => t("laws.found", { count }))).toEqual([
+    expect([1, 2].map((count) => t("laws.matching", { count }))).toEqual([
       "1 Regelgesetz",
       "2 Regelgesetze",
     ]);
@@ -127,7 +127,7 @@ describe("the texts of a page", () => {
 
   test("are English where a translation is missing", async () => {
     const t = await open(["zh-CN"]);
-    expect(t("laws.found", { count: 1 })).toBe("1 个控制律");
+    expect(t("laws.matching", { count: 1 })).toBe("1 个控制律");
     expect(t("runs.count", { count: 1 })).toBe("1 run");
     expect(t("studies.state", { done: 1234, rows: 5000 })).toBe("1,234 of 5,000 runs");
   });
