@@ -30,7 +30,7 @@ COMPILE_AND_TEST_PAGE = $(BIN)/python -m tests.compile_all $(COMPILED) & \
   $(WEB) test && $(MAKE) --no-print-directory .venv/tests; \
   page=$$?; wait $$! && exit $$page
 
-.PHONY: help run dev bench-demo test test-all quick check check-beside-types hooks format page docs schema lock screenshots ranking examples benchmark clean
+.PHONY: help run dev bench-demo test test-all test-rest quick check check-beside-types hooks format page docs schema lock screenshots ranking examples benchmark clean
 
 help:  ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 20
@@ -51,10 +51,16 @@ test: .venv/installed $(PAGE)  ## run fast tests of almost all documented behavi
 	$(BIN)/pytest $(BY_TWO) $(SLOWEST) -m "not exhaustive and wall_clock and smoke" $(WALL_CLOCK)
 
 test-all: COMPILED = --exhaustive
-test-all: .venv/installed $(PAGE)  ## run every test, as in CI
+test-all: .venv/installed $(PAGE)  ## run every test
 	@$(COMPILE_AND_TEST_PAGE)
 	$(BIN)/pytest $(BY_FOUR) $(SLOWEST) -m "not wall_clock"
 	$(BIN)/pytest $(SLOWEST) -m wall_clock $(WALL_CLOCK)
+
+test-rest: COMPILED = --exhaustive
+test-rest: .venv/installed $(PAGE)  ## run what `make test` leaves out, and its searches at full depth
+	@$(BIN)/python -m tests.compile_all $(COMPILED) & $(MAKE) --no-print-directory .venv/tests && wait $$!
+	$(BIN)/pytest $(BY_FOUR) $(SLOWEST) -m "(exhaustive or hypothesis or browser and not smoke) and not wall_clock"
+	$(BIN)/pytest $(SLOWEST) -m "wall_clock and not smoke" $(WALL_CLOCK)
 
 quick: COMPILED = --quick
 quick: .venv/installed  ## run fast tests without server, bench or browser
