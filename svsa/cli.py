@@ -5,10 +5,13 @@ and `openapi`), so that the library does not depend on them.
 """
 
 import json
-from collections.abc import Iterable
+import signal
+import sys
+from collections.abc import Iterable, Sequence
 from importlib.metadata import entry_points
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from types import FrameType
+from typing import Annotated, Any
 
 import typer
 from rich.console import Console
@@ -24,9 +27,9 @@ from svsa.analysis.datasheet.cli import datasheet
 from svsa.analysis.design.cli import margins, stability
 from svsa.analysis.exchange.cli import export_model
 from svsa.analysis.identification.cli import identify
-from svsa.control.installed import get_title
 from svsa.errors import SvsaError
 from svsa.evaluation.arm_collision import arm_collision
+from svsa.evaluation.arm_interaction import arm_interaction
 from svsa.evaluation.arm_map import arm_map
 from svsa.evaluation.falsifier.cli import falsify
 from svsa.evaluation.ranking.arm_cli import rank_arm
@@ -45,9 +48,6 @@ from svsa.runs.result.progress import hide_progress
 from svsa.teaching.course.cli import course
 from svsa.teaching.grading.cli import grade_command
 from svsa.teaching.leaderboard.cli import leaderboard_command, submit_command
-
-if TYPE_CHECKING:
-    from svsa.evaluation.reproduction import Reproduction
 
 
 class _Commands(TyperGroup):
@@ -111,7 +111,9 @@ def reproduce(
         rows = [{"figure": run.figure, "controller": run.law, **run.numbers} for run in runs]
         print(json.dumps({"runs": rows}, indent=2))
         return
-    Console().print(*_build_tables(runs))
+    from svsa.evaluation.reproduction_tables import build_tables
+
+    Console().print(*build_tables(runs))
     from svsa.evaluation.reproduction_pictures import save_figures
 
     with _messages.status("Drawing …"):
@@ -138,6 +140,7 @@ app.command("datasheet")(datasheet)
 app.command("export-model")(export_model)
 app.command("arm-map")(arm_map)
 app.command("arm-collision")(arm_collision)
+app.command("arm-interaction")(arm_interaction)
 app.command("bench-check")(bench_check)
 app.command("bench-home")(bench_home)
 
@@ -235,18 +238,19 @@ def compile_loop(
         ),
     ] = SVSA,
     arm: Annotated[
-        tuple[str, str] | None,
-        typer.Option(help="Also compile an arm: the actuators of its two joints."),
+        str | None,
+        typer.Option(help="Also compile an arm: the actuators of its joints, such as svsa,qbmove."),
     ] = None,
 ) -> None:
     """Compile the control loop into the cache, so that later starts are quick."""
-    for name in (actuator, *(arm or ())):
+    joints = tuple(arm.split(",")) if arm else ()
+    for name in (actuator, *joints):
         get_mechanism(name)  # an unknown name is rejected before anything is compiled
-    prepare(laws, actuator, arm)
+    prepare(laws, actuator, joints)
 
 
 def prepare(
-    laws: Iterable[str] | None = None, actuator: str = SVSA, arm: tuple[str, str] | None = None
+    laws: Iterable[str] | None = None, actuator: str = SVSA, arm: Sequence[str] = ()
 ) -> None:
     """Compile the control loop, metrics and these laws, and report a long compilation.
 
@@ -258,6 +262,7 @@ def prepare(
     from svsa.control.installed import LawError, list_law_names
     from svsa.control.law_names import AnyLaw
     from svsa.numerics.exponential import exp
+    from svsa.runs.definition.arm_experiment import build_actuated_arm
     from svsa.runs.definition.experiment import build_actuator_experiment
     from svsa.runs.result.simulate import simulate
     from svsa.runs.result.simulate_arm import simulate_arm
@@ -276,20 +281,30 @@ def prepare(
             try:
                 experiment = "4a" if actuator == SVSA else build_actuator_experiment(actuator, name)
                 simulate(experiment, AnyLaw(name), duration_s=0.01).measure(0.0, 0.01)
-                if arm is not None:
-                    first, second = ({"actuator": joint} for joint in arm)
-                    simulate_arm("rods", AnyLaw(name), duration_s=0.01, joint1=first, joint2=second)
+                if arm:
+                    simulate_arm(build_actuated_arm("rods", arm), AnyLaw(name), duration_s=0.01)
             except LawError as error:
                 _messages.print(f"[bold red]{escape(str(error))}[/]", highlight=False)
 
 
 def main() -> None:
-    """Entry point: errors of this project are one clear line, not a traceback."""
-    spell_missing_characters()
-    for entry in entry_points(group="svsa.commands"):
-        app.command(entry.name)(entry.load())
-    hide_progress()  # of single runs: the commands have bars
+    """Entry point: errors of this project and Ctrl-C are one clear line, not a traceback."""
+    is_interrupted = False
+
+    def interrupt(number: int, frame: FrameType | None) -> None:
+        nonlocal is_interrupted
+        is_interrupted = True
+        # Partly constructed objects print "Exception ignored" when they are deleted.
+        sys.unraisablehook = lambda _: None
+        signal.default_int_handler(number, frame)
+
+    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+        signal.signal(signal.SIGINT, interrupt)
     try:
+        spell_missing_characters()
+        for entry in entry_points(group="svsa.commands"):
+            app.command(entry.name)(entry.load())
+        hide_progress()  # of single runs: the commands have bars
         app()
     except (SvsaError, OSError) as error:
         _messages.print(f"[bold red]Error:[/] {escape(str(error))}", highlight=False)
@@ -298,38 +313,9 @@ def main() -> None:
         if ended.__context__ and isinstance(ended.__context__.__cause__, KeyboardInterrupt):
             _messages.print("Interrupted.")  # typer exits with 130 without a message
         raise
-
-
-_POSITION = ("rms 1–5 s", "peak 5–7 s", "rms 8–20 s", "recovery")
-_STIFFNESS = ("rms 1–5 s", "peak 5–7 s", "rms 8–20 s", "peak |u1|", "peak |u2|")
-
-
-def _build_tables(runs: "list[Reproduction]") -> list[Table]:
-    """Position error in one table, stiffness error and torque in the other: 80 columns each."""
-    position = _start_table("Position error [°]", _POSITION)
-    stiffness = _start_table("Stiffness error [N·m/rad], torque [N·m]", _STIFFNESS)
-    for run in runs:
-        n, row = run.numbers, (run.figure.upper(), get_title(run.law))
-        recovery = f"{n['recovery_s']:.2f} s" if n["recovery_s"] is not None else "never"
-        position.add_row(
-            *row,
-            f"{n['rms_position_before_deg']:.4f}",
-            f"{n['peak_position_deg']:.2f}",
-            f"{n['rms_position_steady_deg']:.4f}",
-            recovery,
-        )
-        stiffness.add_row(
-            *row,
-            f"{n['rms_stiffness_before_nm_per_rad']:.4f}",
-            f"{n['peak_stiffness_nm_per_rad']:.4f}",
-            f"{n['rms_stiffness_steady_nm_per_rad']:.4f}",
-            *(f"{torque:.1f}" for torque in n["peak_torque_nm"]),
-        )
-    return [position, stiffness]
-
-
-def _start_table(title: str, columns: tuple[str, ...]) -> Table:
-    table = Table("Figure", "law", title=title, title_justify="left")
-    for column in columns:
-        table.add_column(column, justify="right")
-    return table
+    except BaseException:
+        if not is_interrupted:
+            raise
+        # Or an error that follows: C code discards the exception of a callback, as in the compiler.
+        _messages.print("Interrupted.")
+        raise SystemExit(130) from None

@@ -8,7 +8,7 @@ from typing import Any, TypeVar
 import httpx
 
 T = TypeVar("T")
-PATIENCE_S = 240.0
+PATIENCE_S = 300.0
 
 
 def wait_until(

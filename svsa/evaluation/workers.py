@@ -5,11 +5,17 @@ import os
 import signal
 import sys
 import threading
-from concurrent.futures import ProcessPoolExecutor
+from collections.abc import Callable, Iterator
+from concurrent.futures import Future, ProcessPoolExecutor
+from contextlib import contextmanager
 from functools import cache
 from multiprocessing.context import BaseContext
+from typing import ParamSpec, TypeVar
 
 from svsa.numerics.separate_compilation import prefer_in_oom
+
+P = ParamSpec("P")
+R = TypeVar("R")
 
 NICENESS = 10
 """Gives a tenth of a core that is otherwise busy; with the lowest priority the work would not
@@ -17,11 +23,41 @@ progress for minutes.
 """
 
 
-def start_workers(most: int, jobs_each: int | None = None) -> ProcessPoolExecutor:
-    """Start at most `most` workers on demand, each restarted after `jobs_each` jobs."""
-    return ProcessPoolExecutor(
-        most, choose_start(), _begin, (dict(os.environ),), max_tasks_per_child=jobs_each
+def start_workers(
+    most: int, jobs_each: int | None = None, begin: Callable[[], None] | None = None
+) -> ProcessPoolExecutor:
+    """Start at most `most` workers on demand, each restarted after `jobs_each` jobs.
+
+    Each worker first calls `begin`, for example to attach shared memory.
+    """
+    return _Workers(
+        most, choose_start(), _begin, (dict(os.environ), begin), max_tasks_per_child=jobs_each
     )
+
+
+class _Workers(ProcessPoolExecutor):
+    """Ctrl-C waits until a worker has started: one whose parent ends before prints a traceback."""
+
+    def submit(self, fn: Callable[P, R], /, *args: P.args, **kwargs: P.kwargs) -> Future[R]:
+        with _delay_interrupt():
+            return super().submit(fn, *args, **kwargs)
+
+
+@contextmanager
+def _delay_interrupt() -> Iterator[None]:
+    # Ctrl-C interrupts the main thread only; None is a handler of another program, which stays.
+    is_main = threading.current_thread() is threading.main_thread()
+    if not is_main or signal.getsignal(signal.SIGINT) is None:
+        yield
+        return
+    received: list[int] = []
+    handler = signal.signal(signal.SIGINT, lambda number, _: received.append(number))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, handler)
+        if received:
+            signal.raise_signal(signal.SIGINT)
 
 
 @cache
@@ -50,11 +86,13 @@ def choose_start() -> BaseContext:
     return context
 
 
-def _begin(environment: dict[str, str]) -> None:
+def _begin(environment: dict[str, str], begin: Callable[[], None] | None) -> None:
     """Set up a worker as its parent is now: the process that it is forked from may be older."""
     os.environ.clear()
     os.environ.update(environment)
     set_up_worker()
+    if begin is not None:
+        begin()
 
 
 def set_up_worker() -> None:

@@ -1,13 +1,11 @@
 """The paper's bench figures with several laws on the emulator, in parallel."""
 
 import os
-import signal
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, MutableSequence, Sequence
 from concurrent.futures import Future, wait
+from functools import partial
 from itertools import product
-from multiprocessing.managers import SyncManager
-from queue import Queue
-from threading import Event
+from multiprocessing.synchronize import Event
 
 from svsa.errors import FaultError
 from svsa.evaluation.ranking.bench_runs import NUMBERS, BenchRun, BenchRuns
@@ -37,14 +35,12 @@ def measure_on_bench(
     require_extra("bench")
     jobs = list(product(laws, figures))
     workers = min(len(jobs), os.cpu_count() or 1)
-    shares = [0.0] * len(jobs)
+    if workers > 1:
+        return BenchRuns(runs=_measure_side_by_side(jobs, workers, report))
 
     def note(number: int, share: float) -> None:
-        shares[number] = share
-        report(sum(shares) / len(jobs))
+        report((number + share) / len(jobs))
 
-    if workers > 1:
-        return BenchRuns(runs=_measure_side_by_side(jobs, workers, note))
     return BenchRuns(runs=tuple(measure_run(n, job, note) for n, job in enumerate(jobs)))
 
 
@@ -79,23 +75,20 @@ def build_recovery_errors(result: Result) -> RecoveryErrors:
 
 
 def _measure_side_by_side(
-    jobs: Sequence[Job], workers: int, report: ReportOf
+    jobs: Sequence[Job], workers: int, report: Report
 ) -> tuple[BenchRun, ...]:
-    """Run processes in parallel, which report their progress through a queue.
+    """Run processes in parallel, which write the finished share of each run to shared memory.
 
     Only this process receives Ctrl-C; the runs and their emulators end at their next report.
     """
-    manager = SyncManager(ctx=choose_start())
-    manager.start(signal.signal, (signal.SIGINT, signal.SIG_IGN))
-    with manager, start_workers(workers) as pool:
-        progress, ends = manager.Queue(), manager.Event()
-        futures = [
-            pool.submit(_measure_apart, n, job, progress, ends) for n, job in enumerate(jobs)
-        ]
+    context = choose_start()
+    shares, ends = context.Array("d", len(jobs), lock=False), context.Event()
+    with start_workers(workers, begin=partial(_attach_shared, shares, ends)) as pool:
         try:
+            futures = [pool.submit(_measure_apart, n, job) for n, job in enumerate(jobs)]
             while wait(futures, POLL_S).not_done and not any(map(_has_failed, futures)):
-                _pass_on(progress, report)
-            _pass_on(progress, report)
+                report(sum(shares) / len(jobs))
+            report(sum(shares) / len(jobs))
             return tuple(future.result() for future in futures)
         finally:
             ends.set()
@@ -106,18 +99,22 @@ def _has_failed(future: Future[BenchRun]) -> bool:
     return future.done() and future.exception() is not None
 
 
-def _pass_on(progress: Queue[tuple[int, float]], report: ReportOf) -> None:
-    while not progress.empty():
-        report(*progress.get())
+_shared: tuple[MutableSequence[float], Event]
+"""In a worker: the finished share of each job, and whether the runs end."""
 
 
-def _measure_apart(
-    number: int, job: Job, progress: Queue[tuple[int, float]], ends: Event
-) -> BenchRun:
+def _attach_shared(shares: MutableSequence[float], ends: Event) -> None:
+    global _shared
+    _shared = shares, ends
+
+
+def _measure_apart(number: int, job: Job) -> BenchRun:
+    shares, ends = _shared
+
     def report(number: int, share: float) -> None:
         if ends.is_set():
             raise KeyboardInterrupt
-        progress.put((number, share))
+        shares[number] = share
 
     report(number, 0.0)
     return measure_run(number, job, report)

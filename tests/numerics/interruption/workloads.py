@@ -26,6 +26,7 @@ from svsa.runs.execution import arm_run
 from svsa.runs.execution.batch import run_configurations
 from svsa.runs.execution.fault import build_fault
 from svsa.runs.execution.run import Run, Start
+from svsa.simulation.arm import contact
 from svsa.simulation.reference.preview import sample_reference
 from tests.analysis.identification.excited_run import build_configuration, build_run, play
 from tests.hardware.emulator.in_process_emulator import start_in_process
@@ -65,6 +66,7 @@ def run_all() -> None:
     # A change of the lanes of an arm continues with the mass at its tip.
     of_arm = arm_run.ArmRun(build_arm_experiment("rods", {}, {"law": "ndobc"}))
     arm_run.adapt_blocks(of_arm.arms[0], 0.1)
+    contact.compute_effective_mass(of_arm.arms[0].arm, (0.3, -0.5), 0.0)
 
 
 def _simulate(configuration: Configuration) -> None:
