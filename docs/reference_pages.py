@@ -17,6 +17,7 @@ from svsa.actuators.parameters import ActuatorParameters, Limits
 from svsa.actuators.signals import CHANNELS
 from svsa.control.gains import Gains
 from svsa.control.installed import get_law, get_title, has_own_parameters, list_law_names
+from svsa.evaluation.ranking.results import load_published
 from svsa.hardware.bench.settings import BusSettings, DeflectionSettings, MotorSettings
 from svsa.hardware.description.file import (
     DesignSettings,
@@ -191,9 +192,11 @@ def write_parameters() -> str:
         f"## Gains of FL and NDOBC\n\n{format_fields(Gains)}\n",
         "## Control laws\n\nLaws with parameters of their own, in the table `[parameters.NAME]`.\n",
     ]
+    ranked = {row.law for row in load_published().rows}
     for name in list_law_names():
         if has_own_parameters(name):
-            page = f"[{get_title(name)}](../../laws/{name}.md)"
+            title, summary = get_title(name), get_law(name).summary
+            page = f"[{title}](../../laws/{name}.md)" if name in ranked else f"{title}: {summary}"
             fields = format_fields(get_law(name).parameters)
             parts.append(f"### `{name}`\n\n{page}\n\n{fields}\n")
     return "\n".join(parts)

@@ -21,7 +21,8 @@ from svsa.inputs.extras import MissingExtraError
 from svsa.inputs.extras import __version__ as __version__
 from svsa.runs.definition import paper
 from svsa.runs.definition.change import Change
-from svsa.runs.definition.configuration import ArmSetup, Configuration, Design, Lane
+from svsa.runs.definition.configuration import ArmSetup, Configuration
+from svsa.runs.definition.design import Design, Lane
 from svsa.runs.definition.design_file import load_prototype, read_design, write_design
 from svsa.runs.execution.stepper import Observation, Stepper
 from svsa.runs.result.channels import ChannelName
@@ -48,7 +49,7 @@ from svsa.simulation.reference.preview import sample_reference
 from svsa.simulation.reference.series_csv import read_series
 
 if TYPE_CHECKING:
-    from svsa.actuators.arm.parameters import ArmParameters
+    from svsa.actuators.arm.parameters import ArmParameters, LinkParameters
     from svsa.analysis import design
     from svsa.analysis.exchange.robot_model import describe_robot
     from svsa.analysis.identification.measured import identify
@@ -75,7 +76,7 @@ if TYPE_CHECKING:
     from svsa.simulation.arm.tip_reference import TipEllipse, TipMove
 
 _LATE = {
-    "ArmParameters": "svsa.actuators.arm.parameters",
+    **dict.fromkeys(("ArmParameters", "LinkParameters"), "svsa.actuators.arm.parameters"),
     "ArmResult": "svsa.runs.result.arm",
     "PayloadAdaptation": "svsa.control.arm_payload",
     "simulate_arm": "svsa.runs.result.simulate_arm",
@@ -141,6 +142,7 @@ __all__ = [
     "Gains",
     "Lane",
     "Limits",
+    "LinkParameters",
     "MassLoad",
     "MinimumJerkPosition",
     "MinimumJerkStiffness",

@@ -14,11 +14,11 @@ from typing import NamedTuple
 
 import httpx
 
+from tests.waiting import PATIENCE_S
+
 PROGRAM = "from svsa.cli import main; main()"
-START_TIMEOUT_S = 300.0
+START_TIMEOUT_S = 600.0
 END_TIMEOUT_S = 60.0
-PATIENCE_S = 120.0
-"""Timeout of the client. A busy machine may answer late, but not later than this."""
 
 
 class Lab(NamedTuple):

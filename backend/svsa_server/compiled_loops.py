@@ -4,6 +4,7 @@ import asyncio
 import re
 import subprocess
 import time
+from collections.abc import Sequence
 
 from svsa.actuators.elasticity import Actuator, ElasticActuator
 from svsa.actuators.installed import list_mechanism_names
@@ -19,7 +20,7 @@ COMPILE = f"import os; os.nice({LOWEST_PRIORITY}); from svsa.cli import main; ma
 _OTHER_LOOP, _OTHER_LAW = ElasticActuator.__name__, "torques_address"
 """Names in the types of the loop and of a law for another actuator than the SVSA."""
 _PLANT = re.compile(r"\bBlocks\((\w+)")
-"""The plant of each joint in the types of the loop of an arm."""
+"""The plant of each joint in the types of the loop of an arm; one for joints of one type."""
 _compiling = asyncio.Lock()
 _begun: list[float] = []
 """Time at which the current compilation began; empty if there is none."""
@@ -49,18 +50,21 @@ async def compile_for(actuator: str, law: str) -> None:
             await _compile(law, "--actuator", actuator)
 
 
-async def compile_arm(actuators: tuple[str, str], law: str) -> None:
+async def compile_arm(actuators: Sequence[str], law: str) -> None:
     """Compile the loop of an arm and a law for the actuators of its joints, as `compile_for`."""
     async with _compiling:
         is_known = all(name in list_mechanism_names() for name in actuators)
         if is_known and not await asyncio.to_thread(_is_compiled_for_arm, actuators, law):
-            await _compile(law, "--arm", *actuators)
+            await _compile(law, "--arm", ",".join(actuators))
 
 
-def _is_compiled_for_arm(actuators: tuple[str, str], law: str) -> bool:
+def _is_compiled_for_arm(actuators: Sequence[str], law: str) -> bool:
     plants = [Actuator.__name__ if name == SVSA else _OTHER_LOOP for name in actuators]
-    loops = advance_arm._cache.list_types()
-    is_compiled = any(_PLANT.findall(str(types)) == plants for types in loops)
+    count = len(plants)
+    plants = plants[:1] if len(set(plants)) == 1 else plants
+    inertia = f"Arm(UniTuple(UniTuple(float64 x {count}) x {count})"
+    texts = map(str, advance_arm._cache.list_types())
+    is_compiled = any(inertia in text and _PLANT.findall(text) == plants for text in texts)
     return is_compiled and all(is_compiled_for(name, law) for name in actuators)
 
 

@@ -80,7 +80,8 @@ class Sample(NamedTuple):
     """One recorded sample: every field is a channel with a unit and a label.
 
     On a bench the disturbances w are unknown (NaN), and positions are measured; the residuals
-    compare with its simulated twin, and are 0 in all other lanes.
+    compare with its simulated twin, and are 0 in all other lanes. The payload is 0 without an
+    arm that estimates it.
     """
 
     time_s: Annotated[float, "s", "Time t"]
@@ -111,6 +112,7 @@ class Sample(NamedTuple):
     estimate_motor2_nm: Annotated[float, "N·m", "Estimate ŵ6"]
     position_residual_rad: Annotated[float, "rad", "Position q, bench − twin"]
     stiffness_residual_nm_per_rad: Annotated[float, "N·m/rad", "Stiffness σ, bench − twin"]
+    payload_estimate_kg: Annotated[float, "kg", "Payload estimate m̂ of the arm"]
 
 
 @dataclass(frozen=True)

@@ -120,7 +120,7 @@ class Lab(Remote):
             figure: Figure of the paper; must be omitted with `actuator` and `arm`.
             law: Name of the control law.
             actuator: Name of an actuator, such as "qbmove": its default experiment.
-            arm: Name of an arm of two joints, such as "rods": its default experiment.
+            arm: Name of an arm, such as "rods": its default experiment.
             **settings: load, comparisons, effects, seed, as for `POST /sessions`; for an actuator
                 also parameters and nominal, for an arm actuators, feedforward and tip. A preset of
                 effects and a law may be given by name.

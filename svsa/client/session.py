@@ -19,7 +19,7 @@ from svsa.control.gains import Gains
 from svsa.control.law_names import AnyLaw
 from svsa.control.observers.disturbance import ObserverBandwidth
 from svsa.inputs.nearest import suggest
-from svsa.runs.definition.configuration import Lane
+from svsa.runs.definition.design import Lane
 from svsa.runs.definition.shorthand import (
     GivenActuator,
     GivenEffects,
@@ -89,14 +89,16 @@ class RemoteSession(RunningConnection):
 
     def _read(self, name: str) -> Any:
         configuration = self.read_state()["configuration"]
-        return (configuration["arm"]["joint2"] if self._joint == 2 else configuration)[name]
+        if self._joint is not None and self._joint > 1:
+            configuration = configuration["arm"]["other_joints"][self._joint - 2]
+        return configuration[name]
 
     def _change(self, method: str, path: str, body: Any, **query: str) -> None:
-        """Change a setting of the joint, or of both joints of an arm."""
+        """Change a setting of the joint, or of all joints of an arm."""
         query |= {} if self._joint is None else {"joint": str(self._joint)}
         self.call(method, f"{path}?{urlencode(query)}" if query else path, body)
 
-    def open_joint(self, number: Literal[1, 2]) -> "RemoteSession":
+    def open_joint(self, number: int) -> "RemoteSession":
         """Return the session of an arm for the settings and torques of one joint.
 
         Args:

@@ -21,6 +21,7 @@ from svsa.actuators.dynamics import AnyActuator, compute_deflection
 from svsa.actuators.elasticity import compute_coordinate, compute_derivatives
 from svsa.actuators.signals import Reference, State
 from svsa.numerics.compilation import compiled
+from svsa.numerics.fields import full_like, replace_item
 
 
 class Known(NamedTuple):
@@ -50,79 +51,75 @@ def read_motion(reference: Reference) -> Motion:
 
 
 @compiled
-def compute_torques_along(
-    arm: Arm, joint1: Motion, joint2: Motion
-) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
-    """Compute the torque τ_d that an arm needs for a motion of both joints.
+def add_motions(a: Motion, b: Motion) -> Motion:
+    """Return the sum of two motions, to the fourth derivative."""
+    return Motion(a.d0 + b.d0, a.d1 + b.d1, a.d2 + b.d2, a.d3 + b.d3, a.d4 + b.d4)
 
-    With p = q1 + q2: τ2 = a2 p̈ + a3 (cos p (sin q1)¨ − sin p (cos q1)¨) + b2 sin p and
-    τ1 = τ2 + a1 q̈1 + a3 (cos q1 (sin p)¨ − sin q1 (cos p)¨) + b1 sin q1.
+
+@compiled
+def compute_torques_along(
+    arm: Arm, joints: tuple[Motion, ...]
+) -> tuple[tuple[float, float, float], ...]:
+    """Compute the torque τ_d that an arm needs for a motion of its joints.
+
+    With the angles p_i of the links from hanging down (`svsa.actuators.arm.dynamics`), τ_d of joint
+    j is the sum over the links i ≥ j of
+
+        a_ii p̈_i + Σ_{k≠i} a_ik (cos p_i (sin p_k)¨ − sin p_i (cos p_k)¨) + b_i sin p_i
 
     Args:
         arm: Constants of the arm.
-        joint1: Position of joint 1 to its fourth derivative, rad.
-        joint2: Position of joint 2 to its fourth derivative, rad.
+        joints: Position of each joint to its fourth derivative, rad.
 
     Returns:
         For each joint τ_d and its two time derivatives, N·m, N·m/s, N·m/s².
     """
-    p = Motion(
-        joint1.d0 + joint2.d0,
-        joint1.d1 + joint2.d1,
-        joint1.d2 + joint2.d2,
-        joint1.d3 + joint2.d3,
-        joint1.d4 + joint2.d4,
-    )
-    s1, c1 = compute_sine_of(joint1)
-    sp, cp = compute_sine_of(p)
-    a1, a2, a3, b1, b2 = arm.inertia1, arm.inertia2, arm.coupling, arm.weight1, arm.weight2
-    u, v = multiply_second(cp, s1), multiply_second(sp, c1)
-    y, z = multiply_second(c1, sp), multiply_second(s1, cp)
-    t0 = a2 * p.d2 + a3 * (u[0] - v[0]) + b2 * sp.d0
-    t1 = a2 * p.d3 + a3 * (u[1] - v[1]) + b2 * sp.d1
-    t2 = a2 * p.d4 + a3 * (u[2] - v[2]) + b2 * sp.d2
-    return (
-        (
-            t0 + a1 * joint1.d2 + a3 * (y[0] - z[0]) + b1 * s1.d0,
-            t1 + a1 * joint1.d3 + a3 * (y[1] - z[1]) + b1 * s1.d1,
-            t2 + a1 * joint1.d4 + a3 * (y[2] - z[2]) + b1 * s1.d2,
-        ),
-        (t0, t1, t2),
-    )
+    n, links = len(joints), joints
+    sines, cosines = joints, joints
+    for i in range(n):
+        if i > 0:
+            links = replace_item(links, i, add_motions(links[i - 1], joints[i]))
+        sine, cosine = compute_sine_of(links[i])
+        sines, cosines = replace_item(sines, i, sine), replace_item(cosines, i, cosine)
+    t0 = t1 = t2 = 0.0
+    torques = full_like(joints, (t0, t1, t2))
+    for i in range(n - 1, -1, -1):
+        a, b, s = arm.inertia[i][i], arm.weights[i], sines[i]
+        t0, t1, t2 = t0 + a * links[i].d2, t1 + a * links[i].d3, t2 + a * links[i].d4
+        for k in range(n):
+            if k != i:
+                a = arm.inertia[min(i, k)][max(i, k)]
+                u, v = multiply_second(cosines[i], sines[k]), multiply_second(s, cosines[k])
+                t0, t1, t2 = t0 + a * (u[0] - v[0]), t1 + a * (u[1] - v[1]), t2 + a * (u[2] - v[2])
+        t0, t1, t2 = t0 + b * s.d0, t1 + b * s.d1, t2 + b * s.d2
+        torques = replace_item(torques, i, (t0, t1, t2))
+    return torques
 
 
 @compiled
 def compute_known(
-    arm: Arm, inertia1: float, inertia2: float, reference1: Reference, reference2: Reference
-) -> tuple[Known, Known]:
-    """Compute the load w_d of both joints that the arm's model predicts along the references.
+    arm: Arm, inertias: tuple[float, ...], references: tuple[Reference, ...]
+) -> tuple[Known, ...]:
+    """Compute the load w_d of each joint that the arm's model predicts along the references.
 
     Args:
         arm: Constants of the arm.
-        inertia1: Link inertia M of the nominal model of joint 1, kg·m².
-        inertia2: Link inertia M of the nominal model of joint 2, kg·m².
-        reference1: Reference of joint 1.
-        reference2: Reference of joint 2.
+        inertias: Link inertia M of the nominal model of each joint, kg·m².
+        references: Reference of each joint.
 
     Returns:
         For each joint its reference, and w_d with two derivatives.
     """
-    torque1, torque2 = compute_torques_along(arm, read_motion(reference1), read_motion(reference2))
-    r1, r2 = reference1, reference2
-    return (
-        Known(
-            r1,
-            inertia1 * r1.ddq - torque1[0],
-            inertia1 * r1.dddq - torque1[1],
-            inertia1 * r1.ddddq - torque1[2],
-        ),
-        Known(
-            r2,
-            inertia2 * r2.ddq - torque2[0],
-            inertia2 * r2.dddq - torque2[1],
-            inertia2 * r2.ddddq - torque2[2],
-        ),
-    )
+    motions = full_like(references, read_motion(references[0]))
+    for j in range(1, len(references)):
+        motions = replace_item(motions, j, read_motion(references[j]))
+    torques = compute_torques_along(arm, motions)
+    known = full_like(references, Known(references[0], 0.0, 0.0, 0.0))
+    for j in range(len(references)):
+        M, r, (t0, t1, t2) = inertias[j], references[j], torques[j]
+        w, dw, ddw = M * r.ddq - t0, M * r.dddq - t1, M * r.ddddq - t2
+        known = replace_item(known, j, Known(r, w, dw, ddw))
+    return known
 
 
 @compiled

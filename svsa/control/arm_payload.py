@@ -12,19 +12,13 @@ names as future work (Slotine and Li, *Composite adaptive control of robot manip
 
 from typing import NamedTuple
 
-from svsa.actuators.arm.dynamics import (
-    Arm,
-    Joints,
-    add_tip_mass,
-    compute_bias,
-    compute_mass_matrix,
-    turn,
-)
+from svsa.actuators.arm.dynamics import Arm, add_tip_mass, compute_arm_torque, turn
 from svsa.actuators.dynamics import InternalTorque
 from svsa.actuators.signals import State
-from svsa.inputs.checked import Checked, Number, quantity
+from svsa.inputs.checked import Checked, Flag, Number, quantity
 from svsa.numerics.compilation import compiled
 from svsa.numerics.exponential import expm1
+from svsa.numerics.fields import full_like, replace_item
 
 _SMALL = 1e-9
 """Weight of m̂ = 0, (N·m/kg)²: decides as long as the arm has not moved."""
@@ -36,6 +30,9 @@ class PayloadAdaptation(Checked):
     forgetting_s: Number = quantity("s", "Time constant of forgetting τ", gt=0, le=60, default=1.0)
     rate_kg_per_s: Number = quantity("kg/s", "Largest rate of m̂", gt=0, le=100, default=2.0)
     mass_max_kg: Number = quantity("kg", "Largest m̂", gt=0, le=20, default=2.0)
+    shifts_estimate: Flag = quantity(
+        "", "Whether ŵ2 changes with the nominal inertia; off in earlier records", default=True
+    )
 
     def build(self, period: float) -> "Adaptation":
         """Build the constants of the compiled loop.
@@ -44,10 +41,12 @@ class PayloadAdaptation(Checked):
             period: Control period T, s.
 
         Returns:
-            Share of forgetting and largest change per period, and largest mass.
+            Share of forgetting and largest change per period, largest mass, and whether ŵ2 shifts.
         """
         share = -expm1(-period / self.forgetting_s)
-        return Adaptation(share, self.rate_kg_per_s * period, self.mass_max_kg)
+        return Adaptation(
+            share, self.rate_kg_per_s * period, self.mass_max_kg, self.shifts_estimate
+        )
 
 
 class Adaptation(NamedTuple):
@@ -57,14 +56,16 @@ class Adaptation(NamedTuple):
         share: Share of the past that is forgotten in a period, 1.
         step: Largest change of m̂ in a period, kg.
         most: Largest m̂, kg.
+        shifts: Whether ŵ2 changes with the nominal inertia.
     """
 
     share: float
     step: float
     most: float
+    shifts: bool
 
 
-NO_ADAPTATION = Adaptation(0.0, 0.0, 0.0)
+NO_ADAPTATION = Adaptation(0.0, 0.0, 0.0, False)
 
 
 class Payload(NamedTuple):
@@ -82,25 +83,14 @@ class Payload(NamedTuple):
 
 
 @compiled
-def compute_arm_torque(arm: Arm, q: Joints, dq: Joints, ddq: Joints) -> Joints:
-    """Compute the torques that move an arm: M(q) q̈ + C(q, q̇) + g(q), N·m."""
-    angles = turn(q)
-    M, bias = compute_mass_matrix(arm, angles), compute_bias(arm, angles, dq)
-    return Joints(
-        M.m11 * ddq.joint1 + M.m12 * ddq.joint2 + bias.joint1,
-        M.m12 * ddq.joint1 + M.m22 * ddq.joint2 + bias.joint2,
-    )
-
-
-@compiled
 def update_payload(
     adaptation: Adaptation,
     model: Arm,
     payload: Payload,
-    old: tuple[State, State],
-    new: tuple[State, State],
-    F1: tuple[InternalTorque, InternalTorque],
-    F2: tuple[InternalTorque, InternalTorque],
+    old: tuple[State, ...],
+    new: tuple[State, ...],
+    F_old: tuple[InternalTorque, ...],
+    F_new: tuple[InternalTorque, ...],
     period: float,
 ) -> Payload:
     """Update the estimated payload by one period, from the mean of the states at its ends.
@@ -109,27 +99,32 @@ def update_payload(
         adaptation: Share, largest step and largest mass of the estimate.
         model: The arm without the payload.
         payload: Estimate at the start of the period.
-        old: State x̂ of both joints at the start.
-        new: State x̂ of both joints at the end.
-        F1: Internal torque F_n(x̂) of joint 1 at the start and at the end, N·m.
-        F2: The same of joint 2, N·m.
+        old: State x̂ of each joint at the start.
+        new: State x̂ of each joint at the end.
+        F_old: Internal torque F_n(x̂) of each joint at the start, N·m.
+        F_new: The same at the end.
         period: Control period T, s.
 
     Returns:
         Estimate at the end of the period.
     """
-    (a1, a2), (b1, b2), h = old, new, 0.5
-    q = Joints(h * (a1.q + b1.q), h * (a2.q + b2.q))
-    dq = Joints(h * (a1.dq + b1.dq), h * (a2.dq + b2.dq))
-    ddq = Joints((b1.dq - a1.dq) / period, (b2.dq - a2.dq) / period)
-    bare = Arm(0.0, 0.0, 0.0, 0.0, 0.0, model.length1, model.length2, model.gravity)
-    y = compute_arm_torque(add_tip_mass(bare, 1.0), q, dq, ddq)
-    known = compute_arm_torque(model, q, dq, ddq)
-    r1 = h * (F1[0].link + F1[1].link) - known.joint1
-    r2 = h * (F2[0].link + F2[1].link) - known.joint2
+    n, h = len(old), 0.5
+    q = dq = ddq = full_like(old, 0.0)
+    for j in range(n):
+        q = replace_item(q, j, h * (old[j].q + new[j].q))
+        dq = replace_item(dq, j, h * (old[j].dq + new[j].dq))
+        ddq = replace_item(ddq, j, (new[j].dq - old[j].dq) / period)
+    angles, zero = turn(q), full_like(old, 0.0)
+    bare = Arm(full_like(old, zero), zero, model.lengths, model.gravity)
+    y = compute_arm_torque(add_tip_mass(bare, 1.0), angles, dq, ddq)
+    known = compute_arm_torque(model, angles, dq, ddq)
+    new_yy = new_yr = 0.0
+    for j in range(n):
+        r = h * (F_old[j].link + F_new[j].link) - known[j]
+        new_yy, new_yr = new_yy + y[j] * y[j], new_yr + y[j] * r
     share = adaptation.share
-    yy = payload.yy + share * (y.joint1 * y.joint1 + y.joint2 * y.joint2 - payload.yy)
-    yr = payload.yr + share * (y.joint1 * r1 + y.joint2 * r2 - payload.yr)
+    yy = payload.yy + share * (new_yy - payload.yy)
+    yr = payload.yr + share * (new_yr - payload.yr)
     mass = yr / (yy + _SMALL)
     step = min(max(mass - payload.mass, -adaptation.step), adaptation.step)
     return Payload(yy, yr, min(max(payload.mass + step, 0.0), adaptation.most))

@@ -10,6 +10,7 @@ KnownLaw: TypeAlias = Literal[
     "fl",
     "fl_integral",
     "ilc",
+    "impedance",
     "linear_dob",
     "lqi",
     "ndobc",

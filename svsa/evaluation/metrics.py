@@ -16,33 +16,43 @@ from svsa.simulation.loop.tally import STEADY_STATE_S, SUMMARY, Tally
 from svsa.simulation.loop.tally_rows import sum_up
 
 QUANTITIES = {
-    "rms_position_error_rad": ("rad", "rms of q_d − q"),
-    "peak_position_error_rad": ("rad", "Largest |q_d − q|"),
-    "last_position_error_rad": ("rad", "|q_d − q| in the last sample"),
-    "steady_state_position_error_rad": ("rad", "rms of q_d − q over the last 0.5 s"),
-    "recovery_time_s": ("s", "Time until |q_d − q| stays within 2 % of its peak for 0.5 s"),
-    "integral_position_error_rad_s": ("rad·s", "Integral of |q_d − q|"),
-    "rms_stiffness_error_nm_per_rad": ("N·m/rad", "rms of σ_d − σ"),
-    "peak_stiffness_error_nm_per_rad": ("N·m/rad", "Largest |σ_d − σ|"),
-    "peak_stiffness_error_share": ("1", "Largest |σ_d − σ| over σ_d"),
-    "steady_state_stiffness_error_nm_per_rad": (
-        "N·m/rad", "rms of σ_d − σ over the last 0.5 s",
+    "rms_position_error_rad": ("rms position error", "rad", "rms of q_d − q"),
+    "peak_position_error_rad": ("Peak position error", "rad", "Largest |q_d − q|"),
+    "last_position_error_rad": ("Position error at the end", "rad", "|q_d − q| in the last sample"),
+    "steady_state_position_error_rad": (
+        "Steady-state position error", "rad", "rms of q_d − q over the last 0.5 s",
     ),
-    "rms_torque1_nm": ("N·m", "rms of u1"),
-    "rms_torque2_nm": ("N·m", "rms of u2"),
-    "peak_torque1_nm": ("N·m", "Largest |u1|"),
-    "peak_torque2_nm": ("N·m", "Largest |u2|"),
-    "effort_n2m2_s": ("N²·m²·s", "Integral of u1² + u2²"),
-    "work_j": ("J", "Integral of |u1 θ̇1| + |u2 θ̇2|"),
-    "torque1_variation_nm_per_s": ("N·m/s", "Total variation of u1 a second"),
-    "limit_share": ("1", "Share of ticks with a motor at its torque limit"),
+    "recovery_time_s": (
+        "Recovery time", "s", "Time until |q_d − q| stays within 2 % of its peak for 0.5 s",
+    ),
+    "integral_position_error_rad_s": ("IAE of the position", "rad·s", "Integral of |q_d − q|"),
+    "rms_stiffness_error_nm_per_rad": ("rms stiffness error", "N·m/rad", "rms of σ_d − σ"),
+    "peak_stiffness_error_nm_per_rad": ("Peak stiffness error", "N·m/rad", "Largest |σ_d − σ|"),
+    "peak_stiffness_error_share": (
+        "Peak stiffness error, relative", "1", "Largest |σ_d − σ| over σ_d",
+    ),
+    "steady_state_stiffness_error_nm_per_rad": (
+        "Steady-state stiffness error", "N·m/rad", "rms of σ_d − σ over the last 0.5 s",
+    ),
+    "rms_torque1_nm": ("rms torque u1", "N·m", "rms of u1"),
+    "rms_torque2_nm": ("rms torque u2", "N·m", "rms of u2"),
+    "peak_torque1_nm": ("Peak torque u1", "N·m", "Largest |u1|"),
+    "peak_torque2_nm": ("Peak torque u2", "N·m", "Largest |u2|"),
+    "effort_n2m2_s": ("Control effort", "N²·m²·s", "Integral of u1² + u2²"),
+    "work_j": ("Mechanical work", "J", "Integral of |u1 θ̇1| + |u2 θ̇2|"),
+    "torque1_variation_nm_per_s": (
+        "Total variation of u1", "N·m/s", "Total variation of u1 a second",
+    ),
+    "limit_share": (
+        "Ticks at a torque limit", "1", "Share of ticks with a motor at its torque limit",
+    ),
 }  # fmt: skip
-"""Each metric with its unit and meaning; from `measure_from_s` to the end, or to the fault. Those
-of `svsa.runs.metrics.metrics.Metrics` have its names; recovery and steady-state errors are NaN if
-undefined. Torques are actual torques, work is mechanical, and a limit counts as reached within 0.1
-%.
+"""Each metric with its title, unit and meaning; from `measure_from_s` to the end, or to the fault.
+Those of `svsa.runs.metrics.metrics.Metrics` have its names; recovery and steady-state errors are
+NaN if undefined. Torques are actual torques, work is mechanical, and a limit counts as reached
+within 0.1 %.
 """
-METRICS = {name: unit for name, (unit, _) in QUANTITIES.items()}
+METRICS = {name: unit for name, (_, unit, _) in QUANTITIES.items()}
 """The unit of each metric."""
 
 _CODES = {name: code for code, name in FAULT_CODES.items()} | {None: INSIDE}

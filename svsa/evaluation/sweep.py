@@ -12,7 +12,8 @@ from svsa.errors import ParameterError, Violation
 from svsa.evaluation.studies.setting import change_settings
 from svsa.inputs.checked import Checked, check_number
 from svsa.inputs.extras import require_extra
-from svsa.runs.definition.configuration import Configuration, Design
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.definition.design import Design
 from svsa.runs.definition.experiment import build_experiment
 from svsa.runs.definition.paper import DURATION_S
 from svsa.runs.definition.run_checks import check_laws

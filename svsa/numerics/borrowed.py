@@ -33,3 +33,17 @@ borrow = cast("Callable[[np.ndarray], np.ndarray]", _borrow)
 
 The caller must keep the array itself alive, and must not return the borrowed one.
 """
+
+
+@intrinsic
+def _keep(typing: Any, values: Any) -> Any:
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        return context.get_dummy_value()
+
+    return types.none(values), generate
+
+
+keep = cast("Callable[[Any], None]", _keep)
+"""Keep arrays until this call. numba frees an array after the last line that names it, although
+borrowed ones still use its memory.
+"""

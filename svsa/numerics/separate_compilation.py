@@ -115,9 +115,11 @@ def prepare_code(dispatcher: Any, signature: Any) -> None:
     """
     if not _reports or _is_available(dispatcher, signature):
         return
-    # The child finds neither functions of a script nor those that are built on demand.
+    # The child finds neither functions of a script nor those that are built on demand, also if
+    # their module is built on demand, as that of an energy, and was never imported.
     name = dispatcher.py_func.__module__, dispatcher.py_func.__qualname__
-    if _find_function(*name) is not dispatcher:
+    is_imported = getattr(sys.modules.get(name[0]), "__spec__", None) is not None
+    if not is_imported or _find_function(*name) is not dispatcher:
         return
     with _one_at_a_time:
         if not _reports or _is_available(dispatcher, signature):

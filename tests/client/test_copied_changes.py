@@ -131,7 +131,7 @@ def operate_arm(session: RemoteSession) -> None:
     joint1.set(stiffness=70.0, observer=40.0)
     joint1.nominal = {"link_inertia_kg_m2": 0.05}
     session.change_arm(
-        links=RODS.changed(mass2_kg=0.25), adaptation=svsa.PayloadAdaptation(mass_max_kg=0.5)
+        links=RODS.change_link(2, mass_kg=0.25), adaptation=svsa.PayloadAdaptation(mass_max_kg=0.5)
     )
     session.loads.add(svsa.TipMass(mass_kg=0.05, start_s=0.1))
     session.run_until(0.05)

@@ -1,6 +1,7 @@
 """The collision of the tip with a wall: force and energy over stiffness, and its command."""
 
 import json
+import math
 
 import numpy as np
 import pytest
@@ -82,3 +83,11 @@ def test_unknown_law_is_named_in_the_error():
     answer = CliRunner().invoke(app, ["arm-collision", "flx"])
     assert answer.exit_code == 2
     assert "flx" in answer.output
+
+
+@pytest.mark.parametrize("direction", [1, -1])
+def test_impact_on_an_elastic_wall_is_that_of_the_effective_mass(direction):
+    """v √(k m) of a mass m that hits a spring k with the speed v."""
+    collision = measure_collision("pd", 10.0, direction, damping_ns_per_m=0.0)
+    expected = collision.speed_m_per_s * math.sqrt(2000.0 * collision.effective_mass_kg)
+    assert collision.impact_n == pytest.approx(expected, rel=0.03)

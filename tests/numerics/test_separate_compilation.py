@@ -22,13 +22,23 @@ with watch_compilation(names.append):
     assert abs(cos(0.0) - 1.0) + abs(sin(0.0)) == 0.0
 print("compiled here:", "cos" in names)
 """
+ENERGY = """
+from svsa.actuators.energy import compile_energy
+from svsa.actuators.installed import get_mechanism
+from svsa.numerics import separate_compilation
+
+separate_compilation.compile_in_children(print)
+compile_energy(get_mechanism("sea"))
+"""
 KILL = "import os, signal; os.kill(os.getpid(), signal.SIGKILL)"
 KILLED, STORED = "killed, probably because the memory was exhausted", "cannot be stored in"
 
 
-def run_program(cache: Path, child: str = "", before: tuple[str, ...] = ()) -> list[str]:
-    """Run the program with a cache; return the lines that it prints."""
-    command = [*before, sys.executable, "-c", PROGRAM.format(child=repr(child))]
+def run_program(
+    cache: Path, child: str = "", before: tuple[str, ...] = (), program: str = PROGRAM
+) -> list[str]:
+    """Run a program with a cache; return the lines that it prints."""
+    command = [*before, sys.executable, "-c", program.format(child=repr(child))]
     environment = os.environ | {"SVSA_CACHE": str(cache)}
     ran = subprocess.run(
         command,
@@ -46,6 +56,13 @@ def run_program(cache: Path, child: str = "", before: tuple[str, ...] = ()) -> l
 @pytest.mark.long
 def test_function_is_compiled_in_a_child_and_loaded(tmp_path):
     assert run_program(tmp_path) == ["compiled here: False"]
+
+
+@pytest.mark.exhaustive
+@pytest.mark.long
+def test_functions_of_an_energy_are_compiled_here_without_a_failing_child(tmp_path):
+    """Their module is built at run time, and no other process can import it."""
+    assert run_program(tmp_path, program=ENERGY) == []
 
 
 @pytest.mark.parametrize(

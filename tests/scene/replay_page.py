@@ -45,8 +45,8 @@ def write_page(folder: Path, lanes: tuple[str, ...] = ("NDOBC", "FL"), **changes
         "samples": samples,
         "load_mass_kg": mass,
         "details": {
-            "version": "9.9.9",
-            "configuration": {"law": "ndobc", "end_s": math.inf},
+            "Version": "9.9.9",
+            "Controller": {"Law": "NDOBC", "End, s": math.inf},
         },
         "events": [
             Event(1000, 1.0, "gains", "Gains changed"),

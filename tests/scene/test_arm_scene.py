@@ -8,16 +8,16 @@ import pytest
 import trimesh
 import viser
 
-from svsa.actuators.arm.dynamics import Joints, compute_tip_position, turn
+from svsa.actuators.arm.dynamics import compute_tip_position, turn
 from svsa.actuators.arm.parameters import MACCEPA_ARM, RODS
 from svsa.actuators.installed import get_mechanism
 from svsa_scene.arm import ArmScene
 from svsa_scene.arm_pose import ArmPose, TipLoad, Wall
 from svsa_scene.arm_solids import REACH
-from svsa_scene.tip import Lengths, compute_stiffness_ellipse, compute_tip
+from svsa_scene.tip import compute_stiffness_ellipse, compute_tip
 from tests.server.scene.poses import make_pose
 
-LENGTHS = Lengths(0.3, 0.3)
+LENGTHS = (0.3, 0.3)
 ARMS = {"rods": (RODS, "svsa"), "maccepa": (MACCEPA_ARM, "maccepa")}
 
 
@@ -60,10 +60,10 @@ def test_tip_of_the_drawn_links_is_that_of_the_model(server: viser.ViserServer, 
     scene = build_scene(server, name)
     scene.update(build_arm_pose(0.5, -0.9))
     links = place(server, "/a", "/a/l", "/a/l/2", "/a/l/2/l")
-    length2 = REACH * ARMS[name][0].length2_m / (ARMS[name][0].length1_m + ARMS[name][0].length2_m)
-    tip = links @ (length2, 0.0, 0.0, 1.0)
-    lengths = Lengths(REACH - length2, length2)
-    assert tip[1:3] == pytest.approx(compute_tip(lengths, 0.5, -0.9))
+    metres = [link.length_m for link in ARMS[name][0].chain]
+    lengths = [REACH * length / sum(metres) for length in metres]
+    tip = links @ (lengths[1], 0.0, 0.0, 1.0)
+    assert tip[1:3] == pytest.approx(compute_tip(lengths, (0.5, -0.9)))
 
 
 @pytest.mark.parametrize("q", [(0.3, 0.9), (-0.8, -1.7), (2.9, 0.2)])
@@ -71,7 +71,7 @@ def test_ellipse_has_the_axes_of_the_matrix_of_the_tip(q: tuple[float, float]) -
     """K = J⁻ᵀ diag(σ1, σ2) J⁻¹ with the Jacobian by differences of `compute_tip`."""
     sigma, step = (80.0, 20.0), 1e-6
     columns = [
-        np.subtract(compute_tip(LENGTHS, q[0] + d1, q[1] + d2), compute_tip(LENGTHS, *q)) / step
+        np.subtract(compute_tip(LENGTHS, (q[0] + d1, q[1] + d2)), compute_tip(LENGTHS, q)) / step
         for d1, d2 in ((step, 0.0), (0.0, step))
     ]
     inverse = np.linalg.inv(np.stack(columns, 1))
@@ -85,8 +85,8 @@ def test_ellipse_has_the_axes_of_the_matrix_of_the_tip(q: tuple[float, float]) -
 
 def test_tip_is_that_of_the_arm_of_the_simulation() -> None:
     for q in ((0.3, 0.9), (-0.8, -1.7)):
-        tip = compute_tip_position(RODS.build(), turn(Joints(*q)))
-        assert compute_tip(LENGTHS, *q) == pytest.approx((tip.x, tip.y))
+        tip = compute_tip_position(RODS.build(), turn(q))
+        assert compute_tip(LENGTHS, q) == pytest.approx((tip.x, tip.y))
 
 
 def test_straight_arm_has_no_ellipse(server: viser.ViserServer) -> None:
@@ -150,7 +150,7 @@ def test_path_follows_the_tip_and_restarts_after_a_jump(server: viser.ViserServe
     for step in range(12):
         scene.update(build_arm_pose(0.02 * step, 1.0))
     points = get_node(server, "/a/t").points
-    x, y = compute_tip(Lengths(REACH / 2, REACH / 2), 0.22, 1.0)
+    x, y = compute_tip((REACH / 2, REACH / 2), (0.22, 1.0))
     assert points[-1, 1, :2] == pytest.approx((-y, x), rel=1e-5)
     assert len(points) == 5
     for _ in range(6):

@@ -183,7 +183,7 @@ def test_motion_of_an_arm_has_both_joints_and_the_path_of_the_tip() -> None:
         for number, name in enumerate(("Joint 1 FL", "Joint 2 FL", "Joint 1 PD", "Joint 2 PD"))
     ]
     loaded = TipLoad(mass_kg=0.3, force_n=(3.0, 4.0), wall=Wall(math.pi, 0.2))
-    arm = ReplayArm(RODS, actuator, [(0, TipLoad()), (1000, loaded)])
+    arm = ReplayArm(RODS, [actuator] * 2, [(0, TipLoad()), (1000, loaded)])
     no_mass = np.zeros(len(samples))
     motion = record_motion(
         samples, CHANNELS, segments, PERIOD_S, no_mass, ArrayPack(), actuator, arm
@@ -207,7 +207,7 @@ def test_page_of_an_arm_has_its_links(tmp_path: Path) -> None:
         tmp_path,
         ("Joint 1 FL", "Joint 2 FL"),
         actuator=actuator,
-        arm=ReplayArm(RODS, actuator),
+        arm=ReplayArm(RODS, [actuator] * 2),
     )
-    assert read_run(page)["arm"]["length1_m"] == RODS.length1_m
+    assert read_run(page)["arm"]["chain"][0]["length_m"] == RODS.chain[0].length_m
     assert read_run(write_page(tmp_path))["arm"] is None

@@ -12,7 +12,8 @@ from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
 from svsa.cli import main
-from tests.lab import END_TIMEOUT_S, PATIENCE_S, Lab, run_lab
+from tests.lab import END_TIMEOUT_S, Lab, run_lab
+from tests.waiting import PATIENCE_S
 
 SECRET = "correct horse battery"
 

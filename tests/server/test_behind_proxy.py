@@ -19,7 +19,8 @@ from websockets.sync.client import connect
 
 import svsa
 from svsa_server.access.class_keys import ClassKeys, ShownOnce
-from tests.lab import END_TIMEOUT_S, PATIENCE_S, run_lab
+from tests.lab import END_TIMEOUT_S, run_lab
+from tests.waiting import PATIENCE_S
 
 pytestmark = pytest.mark.exhaustive
 """`access/test_below_a_path` tests the path in the answers of the lab."""

@@ -14,10 +14,10 @@ from websockets.sync.client import connect
 from svsa_server.responsive import SILENT_S
 from tests.hardware.live_bench import start_live_emulator, write_bench
 from tests.hardware.safety.survivors import LOAD
-from tests.lab import END_TIMEOUT_S, PATIENCE_S, Lab, run_lab
+from tests.lab import END_TIMEOUT_S, Lab, run_lab
 from tests.server.blocked_lab import BLOCKED, BLOCKING, BLOCKING_WAKE, PROGRAM
 from tests.server.sessions.bench_lab import BenchLab
-from tests.waiting import wait_until
+from tests.waiting import PATIENCE_S, wait_until
 
 STOP = "/api/v1/quick-stop"
 

@@ -1,13 +1,9 @@
 """The loop of another actuator is compiled in a process of its own."""
 
 import asyncio
-import threading
-
-import pytest
 
 from svsa_server import compiled_loops
 from svsa_server.compiled_loops import compile_for
-from tests.lab import run_lab
 
 
 def test_actuator_is_compiled_in_a_process_while_other_requests_are_served(monkeypatch, tmp_path):
@@ -45,27 +41,3 @@ def test_actuator_is_compiled_in_a_process_while_other_requests_are_served(monke
     assert waited == sorted(waited)
     assert compiled_loops.find_compiling_s() is None
     assert started.read_text() == "['compile', 'ndobc', '--actuator', 'qbmove'];"
-
-
-@pytest.mark.exhaustive
-def test_first_session_of_an_actuator_reports_how_long_it_waits(tmp_path):
-    """A lab with an empty cache answers other requests while the loop is compiled."""
-    opened = []
-    with run_lab(cache=str(tmp_path)) as lab:
-        assert lab.client.get("/api/v1/actuators/qbmove").json()["compiling_s"] is None
-
-        def open_session():
-            wanted = {"from": "actuator", "actuator": "qbmove"}
-            opened.append(lab.client.post("/api/v1/sessions", json=wanted, timeout=None))
-
-        thread = threading.Thread(target=open_session)
-        thread.start()
-        waited = []
-        while thread.is_alive():
-            waited.append(lab.client.get("/api/v1/actuators/qbmove").json()["compiling_s"])
-            thread.join(0.2)
-        assert opened[0].status_code == 201, opened[0].text
-        reported = {one for one in waited if one is not None}
-        assert len(reported) >= 3
-        assert max(reported) > 1.0
-        assert lab.client.get("/api/v1/actuators/qbmove").json()["compiling_s"] is None

@@ -15,9 +15,10 @@ from svsa.runs.session.frame import HEADER, HEADER_FIELDS
 from svsa_server import openapi
 from svsa_server.app import build_app
 from svsa_server.config import Settings
-from tests.lab import PATIENCE_S, Lab
+from tests.lab import Lab
 from tests.lab_in_process import run_lab_in_process
 from tests.server.schema import SCHEMA
+from tests.waiting import PATIENCE_S
 
 STREAM = "/api/v1/sessions/{session}/stream"
 

@@ -13,8 +13,8 @@ import httpx
 import pytest
 
 from tests.benchmarks.attacks import UPGRADE, build_head, open_stream
-from tests.lab import PATIENCE_S, Lab, run_lab
-from tests.waiting import wait_until
+from tests.lab import Lab, run_lab
+from tests.waiting import PATIENCE_S, wait_until
 
 DESCRIPTORS, FLOOD = 256, 400
 MAX_LOG_BYTES = 50_000

@@ -14,9 +14,10 @@ from svsa_server import page
 from svsa_server.access.guard import LONGEST_BODY_BYTES
 from svsa_server.access.permissions import PUBLIC, allow
 from tests.benchmarks.attacks import UPGRADE
-from tests.lab import PATIENCE_S, Lab
+from tests.lab import Lab
 from tests.lab_in_process import run_lab_in_process
 from tests.server.schema import SCHEMA
+from tests.waiting import PATIENCE_S
 
 REQUIRED = {
     "x-content-type-options": "nosniff",

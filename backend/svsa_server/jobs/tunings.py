@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 from svsa.evaluation.campaign.journal import Journal, define_search, read_lines
 from svsa.evaluation.tuning.file import format_tuned
 from svsa.evaluation.tuning.tuner import tune
-from svsa.runs.definition.configuration import Design
+from svsa.runs.definition.design import Design
 from svsa_server.jobs.progress import JobFolder
 
 _CANDIDATES, _FILE = "candidates.jsonl", "parameters.toml"

@@ -6,7 +6,8 @@ from typing import Any, NamedTuple
 from svsa.actuators.parameters import get_mechanism_name
 from svsa.actuators.reach import find_only_stiffness
 from svsa.runs.definition.arm_experiment import ARMS
-from svsa.runs.definition.configuration import Configuration, Design
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.definition.design import Design
 from svsa_server.schemas.lab.arm import FromArm
 from svsa_server.schemas.lab.opening import FromActuator, FromFigure
 
@@ -50,10 +51,12 @@ def _list_requests(
 ) -> Iterator[tuple[dict[str, Any], Configuration]]:
     names = [get_mechanism_name(joint.actuator) for joint in c.joints]
     if c.arm is not None:
-        links, (first, _) = c.arm.links, names
-        arm = max(ARMS, key=lambda name: (ARMS[name].links == links, ARMS[name].actuator == first))
+        links, joints = c.arm.links, len(names)
+        long = [name for name, arm in ARMS.items() if len(arm.links.chain) >= joints]
+        has_same = {name: ARMS[name].build_links(joints) == links for name in long}
+        arm = max(long, key=lambda name: (has_same[name], ARMS[name].actuator == names[0]))
         request: dict[str, Any] = {"from": "arm", "arm": arm}
-        if names != [ARMS[arm].actuator] * 2:
+        if names != [ARMS[arm].actuator] * len(ARMS[arm].links.chain):
             request["actuators"] = names
         yield request, FromArm(**request).build_configuration()
         return

@@ -6,6 +6,7 @@ import numpy as np
 
 from svsa.runs.definition.command import Command
 from svsa.runs.definition.configuration import Configuration
+from svsa.runs.records.difference import describe_configuration
 from svsa.runs.records.measured_window import find_measured_window, trace_record
 from svsa.runs.records.reader import Record
 from svsa.runs.records.resimulation import read_origin
@@ -38,16 +39,19 @@ def build_replay(record: Record) -> str:
         record.samples,
         compute_hung_mass(record),
         {
-            "version": header.version,
-            "recorded": header.created,
-            "session": header.session,
-            "seed": header.seed,
-            "plant": header.plant,
-            "notes": header.notes,
-            "configuration": header.configuration,
-            "fault": "" if record.fault is None else record.fault.message,
-            "commands": [command for _, command in record.commands],
+            "Version": header.version,
+            "Recorded": header.created,
+            "Session": header.session,
+            "Seed": header.seed,
+            "Notes": header.notes,
+            "Fault": "" if record.fault is None else record.fault.message,
+            **describe_configuration(origin[0]),
+            "Changes": [
+                {"Time, s": command.tick * header.period_s, "Change": command.label}
+                for command in origin[1]
+            ],
         },
+        plant=header.plant,
         events=list_events(*origin, record.fault, record.events),
         first_tick=record.first_tick,
         actuator=origin[0].actuator,
@@ -64,7 +68,7 @@ def _find_arm(
     if arm is None:
         return None
     loads = trace_tip_loads(configuration, commands, first_tick)
-    return ReplayArm(arm.links, arm.joint2.actuator, loads)
+    return ReplayArm(arm.links, [joint.actuator for joint in configuration.joints], loads)
 
 
 def _place(record: Record, segment: SegmentState) -> LaneSegment:

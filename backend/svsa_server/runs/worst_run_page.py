@@ -3,6 +3,7 @@
 import numpy as np
 
 from svsa.actuators.signals import CHANNELS
+from svsa.runs.records.difference import describe_configuration
 from svsa.runs.records.measured_window import MeasuredWindow
 from svsa.runs.timeline.events import list_events
 from svsa.teaching.leaderboard.board import Board, Entry
@@ -26,6 +27,8 @@ def build_worst_run_page(board: Board, entry: Entry) -> str:
     ticks = len(samples)
     first = round(scenario.measured_s / period_s)
     start = first if first < ticks else 0
+    settings = describe_configuration(result.configuration)
+    settings["Controller"]["Law"] = lanes[0]
     return build_replay_html(
         f"{lanes[0]}: {scenario.title}",
         period_s,
@@ -34,14 +37,12 @@ def build_worst_run_page(board: Board, entry: Entry) -> str:
         samples,
         trace_hung_mass(result.configuration, (), 0, ticks),
         {
-            "version": entry.version,
-            "measured": entry.entered,
-            "notes": " ".join(filter(None, notes)),
-            "plant": "simulated",
-            "seed": result.configuration.seed,
-            "configuration": result.configuration.model_dump(mode="json") | {"law": lanes[0]},
-            "fault": "" if result.fault is None else result.fault.message,
-            "commands": [],
+            "Version": entry.version,
+            "Measured": entry.entered,
+            "Notes": " ".join(filter(None, notes)),
+            "Seed": result.configuration.seed,
+            "Fault": "" if result.fault is None else result.fault.message,
+            **settings,
         },
         events=list_events(result.configuration, (), result.fault),
         window=MeasuredWindow(

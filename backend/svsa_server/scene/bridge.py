@@ -83,7 +83,7 @@ class SceneBridge:
 def _build_scene(
     server: viser.ViserServer, configuration: Configuration
 ) -> ActuatorScene | ArmScene:
-    arm = configuration.arm
-    if arm is None:
+    if configuration.arm is None:
         return ActuatorScene(server, configuration.actuator)
-    return ArmScene(server, arm.links, (configuration.actuator, arm.joint2.actuator))
+    actuators = [joint.actuator for joint in configuration.joints]
+    return ArmScene(server, configuration.arm.links, actuators)

@@ -12,8 +12,6 @@ from svsa_scene.pose import POSE_CHANNELS, replace_unknown_disturbances
 from svsa_server.runs.lanes import list_session_segments
 from svsa_server.runs.tip_load import sum_tip_loads
 
-JOINTS = 2
-
 
 def read_pose(session: Session) -> ActuatorPose | ArmPose | None:
     """Read the pose from the session's newest sample; None before the first."""
@@ -55,18 +53,19 @@ def _list_acting(session: Session) -> list[Load]:
 
 
 def _read_arm(session: Session) -> ArmPose | None:
-    """Read both joints, the comparison's angles and the loads at the tip."""
+    """Read the joints, the comparison's angles and the loads at the tip."""
     lanes = range(len(session.run.configuration.lanes))
     poses = [_read_lane(session, lane) for lane in lanes]
-    first, second, *others = poses
-    if first is None or second is None:
+    count = len(session.run.configuration.joints)
+    joints = tuple(pose for pose in poses[:count] if pose is not None)
+    if len(joints) < count:
         return None
-    angles = [math.nan if pose is None else pose.position_rad for pose in others]
-    is_compared = len(angles) == JOINTS and all(map(math.isfinite, angles))
+    angles = tuple(math.nan if pose is None else pose.position_rad for pose in poses[count:])
+    is_compared = len(angles) == count and all(map(math.isfinite, angles))
     segments = list_session_segments(session)
     return ArmPose(
-        (first, second),
-        comparison=(angles[0], angles[1]) if is_compared else None,
-        comparison_name=segments[JOINTS][-1].name.split(" ", 2)[-1] if is_compared else "",
+        joints,
+        comparison=angles if is_compared else None,
+        comparison_name=segments[count][-1].name.split(" ", 2)[-1] if is_compared else "",
         load=sum_tip_loads(_list_acting(session)),
     )

@@ -45,6 +45,7 @@ class Scenes:
     def __init__(self, laboratory: Laboratory) -> None:
         self._laboratory = laboratory
         self.views: dict[str, View] = {}
+        self._is_viewed = asyncio.Event()
         self._starting = asyncio.Lock()
         self._ending: set[asyncio.Task[None]] = set()
 
@@ -61,18 +62,22 @@ class Scenes:
                 # session.
                 self.views[name] = View(session, await asyncio.to_thread(_start_viser, session))
         view = self.views[name]
+        self._is_viewed.set()
         view.seen = time.monotonic()
         return view.bridge.port
 
     async def run(self) -> None:
-        """Update every view 30 times a second until cancelled."""
+        """Update every view 30 times a second until cancelled; without views, wait for one."""
         while True:
+            await self._is_viewed.wait()
             begin = time.monotonic()
             for name, view in list(self.views.items()):
                 if view.is_over(begin):
                     self._end(name)
                 else:
                     _update(view, begin)
+            if not self.views:
+                self._is_viewed.clear()
             await asyncio.sleep(max(0.001, begin + UPDATE_PERIOD_S - time.monotonic()))
 
     def _end(self, name: str) -> None:

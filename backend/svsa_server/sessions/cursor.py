@@ -94,7 +94,7 @@ class SampleCursor:
             self._past = range(0)
         pace = session.pace
         speed = pace.speed if math.isfinite(pace.speed) else pace.real_time_factor
-        stride = self._stride * min(MAX_THINNING, max(1, round(speed)))
+        step = stride = self._stride * min(MAX_THINNING, max(1, round(speed)))
         if speed > MAX_THINNING:
             newest = self._align(history.end_tick - MAX_FAST_ROWS * stride)
             self._next = max(self._next, newest)
@@ -112,8 +112,8 @@ class SampleCursor:
         ticks = range(self._next, history.end_tick, stride)[: self._count_rows(lanes, BATCH_BYTES)]
         if not ticks:
             return None
-        # Advanced also if the batch was packed for another client.
-        self._next = ticks.start + stride * len(ticks)
+        # Not by a whole stride: the newest samples before a pause would never be sent.
+        self._next = ticks[-1] + step
         return self._packed.get(
             (self._run, history.end_tick, session.version),
             (ticks.start, stride, len(ticks), missed, lanes, self._columns),

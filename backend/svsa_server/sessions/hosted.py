@@ -36,8 +36,13 @@ class Round:
         self._begun.set()
         self._begun.clear()
 
+    def end(self) -> None:
+        """Wake the streams for the last time, also a stream that waits only later."""
+        self.number += 1
+        self._begun.set()
+
     async def wait(self) -> None:
-        """Wait until the next wake-up."""
+        """Wait until the next wake-up; return at once after the last."""
         await self._begun.wait()
 
 
@@ -110,7 +115,7 @@ class HostedSession:
     def close(self) -> None:
         """End the session permanently, and wake its streams."""
         self.session.close()
-        self.round.begin()
+        self.round.end()
 
     @property
     def streams(self) -> int:

@@ -38,4 +38,4 @@ def _describe_arm(configuration: Configuration) -> tuple[object, ...]:
     if arm is None:
         return ()
     mechanisms = (find_mechanism(joint.actuator).name for joint in configuration.joints)
-    return (arm.links.length1_m, arm.links.length2_m, *mechanisms)
+    return (*(link.length_m for link in arm.links.chain), *mechanisms)

@@ -16,7 +16,8 @@ from svsa.hardware.emulator.control import EmulatorControl, EmulatorError
 from svsa.hardware.realtime.configuration import build_first_experiment
 from svsa.hardware.session.session import BenchSession
 from svsa.runs.definition.command import Command
-from svsa.runs.definition.configuration import Configuration, Design
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.definition.design import Design
 from svsa.runs.definition.paper import get_figure
 from svsa.runs.session.session import Operator, Session
 from svsa.runs.session.simulated import SimulatedSession

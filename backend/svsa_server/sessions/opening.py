@@ -10,7 +10,8 @@ from svsa.errors import StateError
 from svsa.evaluation.falsifier.measure import list_baselines
 from svsa.evaluation.ranking.scenarios import find_scenario
 from svsa.evaluation.ranking.single_run import build_shown_run
-from svsa.runs.definition.configuration import Configuration, Lane
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.definition.design import Lane
 from svsa.runs.definition.experiment import build_default_load
 from svsa.runs.records.resimulation import check_simulated, read_origin
 from svsa.simulation.plant.loads.paper import PaperLoad

@@ -25,8 +25,8 @@ from svsa_server.sessions.waiting import WaitingCall, pause
 POLL_S = 0.005
 MAX_FORMS = 10_000
 _FLOAT = re.compile(r"(?<![\w.])-?(\d+\.\d+(e[+-]?\d+)?|\d+e[+-]?\d+|inf|nan)\b")
-_WITHOUT_CODE = {"arm", "joint2", "loads", "position", "sampling", "seed", "stiffness"}
-"""Fields whose values the same code reads; those of an arm and of its second joint are listed
+_WITHOUT_CODE = {"arm", "other_joints", "loads", "position", "sampling", "seed", "stiffness"}
+"""Fields whose values the same code reads; those of an arm and of its other joints are listed
 separately."""
 
 _prepared: set[tuple[str, str]] = set()

@@ -49,7 +49,7 @@ def build_progress(hosted: HostedSession, since_tick: int = 0) -> SessionProgres
     run, pace = session.run, session.pace
     segments = list_session_segments(session, since_tick)
     timeline = session.journal.timeline
-    load_window = timeline.load_window
+    load_window, joints = timeline.load_window, len(run.configuration.joints)
     return SessionProgress(
         status=session.status,
         run_number=session.journal.run_number,
@@ -64,7 +64,7 @@ def build_progress(hosted: HostedSession, since_tick: int = 0) -> SessionProgres
         lanes=[
             LaneState(
                 lane=number + 1,
-                joint=None if run.configuration.arm is None else 1 if number % 2 == 0 else 2,
+                joint=None if run.configuration.arm is None else 1 + number % joints,
                 id=timeline.lane_ids[number],
                 law=lane.law,
                 name=segments[number][-1].name,
@@ -84,7 +84,9 @@ def build_state(hosted: HostedSession, since_tick: int = 0) -> SessionState:
     """Build the complete state of the session; since_tick as for `build_progress`."""
     session = hosted.session
     run = session.run
-    arm = run.configuration.arm
+    actuator, *other_actuators = (
+        summarize_actuator(find_mechanism(joint.actuator)) for joint in run.configuration.joints
+    )
     newest = session.journal.history.read_newest()
     return SessionState(
         **dict(build_progress(hosted, since_tick)),
@@ -98,8 +100,8 @@ def build_state(hosted: HostedSession, since_tick: int = 0) -> SessionState:
         control=build_control(hosted),
         queue=build_queue(hosted.lease),
         rate_hz=1.0 / run.period_s,
-        actuator=summarize_actuator(find_mechanism(run.configuration.actuator)),
-        actuator2=None if arm is None else summarize_actuator(find_mechanism(arm.joint2.actuator)),
+        actuator=actuator,
+        other_actuators=other_actuators,
         configuration=_build_configuration(run.configuration),
         loads=[_build_load(load, run) for load in run.loads],
         events=[event for event in session.journal.events if event.tick >= since_tick],
@@ -181,8 +183,8 @@ def _list_payloads(run: Run) -> list[float] | None:
 def _build_arm(arm: ArmSetup | None) -> ArmSetupState | None:
     if arm is None:
         return None
-    joint2 = _build_configuration(arm.joint2)
-    return ArmSetupState(**{**dict(arm), "joint2": joint2})
+    others = [_build_configuration(joint) for joint in arm.other_joints]
+    return ArmSetupState(**{**dict(arm), "other_joints": others})
 
 
 def _build_configuration(configuration: Configuration) -> ConfigurationState:

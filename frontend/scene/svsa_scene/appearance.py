@@ -100,10 +100,14 @@ def paint(mesh: trimesh.Trimesh, finish: Finish) -> trimesh.Trimesh:
     return mesh
 
 
-def add_root(server: viser.ViserServer) -> None:
-    """Add the frame "/a" of every part: x down, y to the right, z towards the viewer in front."""
+def add_root(server: viser.ViserServer, back: float = 0.0) -> None:
+    """Add the frame "/a" of every part: x down, y to the right, z towards the viewer in front.
+
+    back: its distance behind the origin of the scene.
+    """
     half = math.sqrt(0.5)
-    server.scene.add_frame("/a", show_axes=False, wxyz=(half, 0.0, half, 0.0))
+    at = (-back, 0.0, 0.0)
+    server.scene.add_frame("/a", show_axes=False, wxyz=(half, 0.0, half, 0.0), position=at)
 
 
 def set_stage(

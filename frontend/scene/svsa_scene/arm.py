@@ -1,6 +1,6 @@
-"""A two-joint arm in a viser scene: both mechanisms, links, tip path, loads and tip stiffness."""
+"""An arm in a viser scene: mechanisms, links, tip path, loads and tip stiffness."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 import viser
@@ -18,7 +18,7 @@ from svsa_scene.arm_solids import REACH
 from svsa_scene.moved import Moved
 from svsa_scene.names import add_label
 from svsa_scene.parts import ActuatorParts
-from svsa_scene.tip import Lengths, compute_stiffness_ellipse, compute_tip
+from svsa_scene.tip import compute_stiffness_ellipse, compute_tip
 
 _FLOOR = REACH + 1.6
 _TIP_COLOR: look.Rgb = look.COLORS[0]
@@ -31,7 +31,7 @@ class ArmScene:
     Args:
         server: The viser server.
         links: The links of the plant.
-        actuators: Parameters of the actuators of joint 1 and joint 2.
+        actuators: Parameters of the actuator of each joint.
         has_trail: Whether the path of the last seconds is drawn.
     """
 
@@ -39,27 +39,19 @@ class ArmScene:
         self,
         server: viser.ViserServer,
         links: ArmParameters,
-        actuators: tuple[MechanismParameters, MechanismParameters],
+        actuators: Sequence[MechanismParameters],
         has_trail: bool = True,
     ) -> None:
         self._server = server
-        self._metres = Lengths(links.length1_m, links.length2_m)
-        self._scale = REACH / self._metres.reach
-        self._lengths = Lengths(
-            self._metres.link1 * self._scale, REACH - self._metres.link1 * self._scale
-        )
+        self._metres = [link.length_m for link in links.chain]
+        scale, tip_z = REACH / sum(self._metres), solids.find_tip_z(len(self._metres))
+        self._lengths = [scale * metres for metres in self._metres]
         look.set_stage(server, ground=-_FLOOR, cameras="arm", size=3.2)
         self.set_theme(dark=False)
-        look.add_root(server)
-        link1, link2 = self._lengths
-        first = ActuatorParts(server, actuators[0], "/a", has_labels=False)
+        # The cameras look at the middle of an arm of two joints.
+        look.add_root(server, back=0.5 * solids.STEP_Z * (len(self._metres) - 2))
         self._add_solid("/a/stand", mechanism.build_stand, _FLOOR)
-        self._add_solid("/a/l/1", solids.build_link1, link1)
-        server.scene.add_frame("/a/l/2", show_axes=False, position=(link1, 0.0, solids.STEP_Z))
-        second = ActuatorParts(server, actuators[1], "/a/l/2", has_labels=False)
-        second.add("m", mechanism.build_principal_motor)
-        self._add_solid("/a/l/2/l/1", solids.build_link2, link2)
-        self._joints = first, second
+        self._joints = self._add_joints(actuators)
         self._moved = Moved()
         self._ghost = OtherArm(server, self._moved, "/a/g", self._lengths, "q_d")
         self._ghost.paint(solids.build_ghost_link, look.GHOST)
@@ -68,18 +60,35 @@ class ArmScene:
             solids.build_outline, look.Finish(look.get_line_color(1), 0.0, 0.7, 0.85)
         )
         self._comparison.show(None)
-        self._loads = TipLoads(server, self._moved, self._scale)
+        self._loads = TipLoads(server, self._moved, scale, tip_z)
         stiffest = [find_mechanism(one).limits.stiffness_max_nm_per_rad for one in actuators]
-        self._ellipse = Ellipse(server, self._moved, max(stiffest), self._metres)
+        self._ellipse = Ellipse(server, self._moved, max(stiffest), self._metres, tip_z)
         self._trails = (
-            Trail(server, "/a/t", _TIP_COLOR, 3.0),
-            Trail(server, "/a/td", _REFERENCE_COLOR, 2.0),
+            Trail(server, "/a/t", _TIP_COLOR, 3.0, tip_z),
+            Trail(server, "/a/td", _REFERENCE_COLOR, 2.0, tip_z),
         )
         self._has_trail = has_trail
-        for number, node in enumerate(("/a/l/n1", "/a/l/2/l/n2"), start=1):
-            server.scene.add_frame(node, show_axes=False)
-            place = (0.55 * self._lengths[number - 1], 0.3, 0.98)
-            add_label(server, f"{node}/t", f"q_{number}", place)
+
+    def _add_joints(self, actuators: Sequence[MechanismParameters]) -> list[ActuatorParts]:
+        """Add actuator, link and name of each joint to the link before."""
+        joints, root, last = [], "/a", len(actuators)
+        for number, (actuator, length) in enumerate(
+            zip(actuators, self._lengths, strict=True), start=1
+        ):
+            if number > 1:
+                at = (self._lengths[number - 2], 0.0, solids.STEP_Z)
+                root = f"{root}/l/{number}"
+                self._server.scene.add_frame(root, show_axes=False, position=at)
+            parts = ActuatorParts(self._server, actuator, root, has_labels=False)
+            if number > 1:
+                parts.add("m", mechanism.build_principal_motor)
+            joints.append(parts)
+            build = solids.build_last_link if number == last else solids.build_link
+            self._add_solid(f"{root}/l/1", build, length)
+            self._server.scene.add_frame(f"{root}/l/n{number}", show_axes=False)
+            place = (0.55 * length, 0.3, 0.98)
+            add_label(self._server, f"{root}/l/n{number}/t", f"q_{number}", place)
+        return joints
 
     def set_theme(self, dark: bool) -> None:
         """Light or dark background for viewers whose address does not ask for `?darkMode`."""
@@ -91,21 +100,20 @@ class ArmScene:
         """
         if not pose.is_finite:
             return
-        first, second = pose.joints
-        q = first.position_rad, second.position_rad
-        wanted = first.position_reference_rad, second.position_reference_rad
-        tip = compute_tip(self._lengths, *q)
-        stiffness = first.stiffness_nm_per_rad, second.stiffness_nm_per_rad
+        q = [joint.position_rad for joint in pose.joints]
+        reference = [joint.position_reference_rad for joint in pose.joints]
+        stiffness = [joint.stiffness_nm_per_rad for joint in pose.joints]
+        tip = compute_tip(self._lengths, q)
         with self._server.atomic():
             for parts, joint in zip(self._joints, pose.joints, strict=True):
                 parts.move(joint)
-            self._ghost.show(wanted)
+            self._ghost.show(reference)
             self._comparison.show(pose.comparison, pose.comparison_name)
             self._loads.show(tip, pose.load)
             self._ellipse.show(tip, compute_stiffness_ellipse(self._metres, q, stiffness))
             if self._has_trail:
                 for trail, point in zip(
-                    self._trails, (tip, compute_tip(self._lengths, *wanted)), strict=True
+                    self._trails, (tip, compute_tip(self._lengths, reference)), strict=True
                 ):
                     trail.add(point)
 
@@ -114,11 +122,11 @@ class ArmScene:
         seconds.
 
         Args:
-            joints: q1 and q2 over time, (ticks, 2), rad.
-            references: Their references, (ticks, 2), rad.
+            joints: Angles of the joints over time, (ticks, joints), rad.
+            references: Their references, (ticks, joints), rad.
         """
         for trail, angles in zip(self._trails, (joints, references), strict=True):
-            trail.draw([compute_tip(self._lengths, *q) for q in angles if np.isfinite(q).all()])
+            trail.draw([compute_tip(self._lengths, q) for q in angles if np.isfinite(q).all()])
 
     def _add_solid(self, node: str, build: Callable[..., mechanism.Group], length: float) -> None:
         self._server.scene.add_glb(node, mechanism.export(build, length))

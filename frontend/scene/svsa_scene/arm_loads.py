@@ -21,8 +21,8 @@ _SMALLEST_FORCE_N = 0.05
 class TipLoads:
     """Mass, force and wall."""
 
-    def __init__(self, server: viser.ViserServer, moved: Moved, scale: float) -> None:
-        self._moved, self._scale = moved, scale
+    def __init__(self, server: viser.ViserServer, moved: Moved, scale: float, tip_z: float) -> None:
+        self._moved, self._scale, self._tip_z = moved, scale, tip_z
         scene = server.scene
         self._mass_kg = 0.0
         self._mass = scene.add_frame("/a/w", show_axes=False, visible=False)
@@ -38,7 +38,7 @@ class TipLoads:
             "/a/f/h/m", head.vertices, head.faces, color=look.DISTURBANCE, cast_shadow=False
         )
         self._force_label = add_label(server, "/a/f/h/t", "0 N", (0.0, 0.9, 0.0))
-        wall = solids.build_wall(1.4 * REACH)
+        wall = solids.build_wall(1.4 * REACH, tip_z)
         self._wall = scene.add_mesh_simple(
             "/a/wall",
             wall.vertices,
@@ -52,8 +52,8 @@ class TipLoads:
     def show(self, tip: tuple[float, float], load: TipLoad) -> None:
         """Draw the loads at the tip; `tip` is (x, y) in scene units."""
         x, y = tip
-        self._show_mass((-y, x, solids.TIP_Z + 0.25), load.mass_kg)
-        self._show_force((-y, x, solids.TIP_Z + 0.4), load.force_n)
+        self._show_mass((-y, x, self._tip_z + 0.25), load.mass_kg)
+        self._show_force((-y, x, self._tip_z + 0.4), load.force_n)
         self._show_wall(load.wall)
 
     def _show_mass(self, at: tuple[float, float, float], mass_kg: float) -> None:

@@ -14,7 +14,7 @@ from svsa_scene.arm_solids import REACH
 from svsa_scene.geometry import turn
 from svsa_scene.moved import Moved
 from svsa_scene.names import add_label
-from svsa_scene.tip import Lengths, StiffnessEllipse
+from svsa_scene.tip import StiffnessEllipse, sum_pairs
 
 TRAIL_POINTS = 90
 _TRAIL_EVERY = 2
@@ -28,39 +28,45 @@ class OtherArm:
     """Links without mechanisms: the reference, or the comparison."""
 
     def __init__(
-        self, server: viser.ViserServer, moved: Moved, root: str, lengths: Lengths, name: str
+        self,
+        server: viser.ViserServer,
+        moved: Moved,
+        root: str,
+        lengths: Sequence[float],
+        name: str,
     ) -> None:
-        self._scene, self._moved, self._root, self._lengths = server.scene, moved, root, lengths
-        at = (lengths.link1, 0.0, solids.STEP_Z)
-        self._link1 = server.scene.add_frame(root, show_axes=False)
-        self._link2 = server.scene.add_frame(f"{root}/2", show_axes=False, position=at)
+        self._scene, self._moved, self._lengths = server.scene, moved, lengths
+        self._links = [server.scene.add_frame(root, show_axes=False)]
+        for number, length in enumerate(lengths[:-1], start=2):
+            node, at = f"{self._links[-1].name}/{number}", (length, 0.0, solids.STEP_Z)
+            self._links.append(server.scene.add_frame(node, show_axes=False, position=at))
         self._name = name
-        place = (0.8 * lengths.link2, -0.4, 0.9)
-        self._label = add_label(server, f"{root}/2/t", name or " ", place)
+        place = (0.8 * lengths[-1], -0.4, 0.9)
+        self._label = add_label(server, f"{self._links[-1].name}/t", name or " ", place)
 
     def paint(self, build: Callable[..., mechanism.Group], finish: look.Finish) -> None:
-        """Draw both links."""
-        for node, length in zip((self._root, f"{self._root}/2"), self._lengths, strict=True):
-            self._scene.add_glb(f"{node}/solid", mechanism.export(build, length, finish))
+        """Draw the links."""
+        for link, length in zip(self._links, self._lengths, strict=True):
+            self._scene.add_glb(f"{link.name}/solid", mechanism.export(build, length, finish))
 
-    def show(self, q: tuple[float, float] | None, name: str = "") -> None:
+    def show(self, q: Sequence[float] | None, name: str = "") -> None:
         """Show it at these angles, rad; None hides it."""
-        if self._link1.visible != (q is not None):
-            self._link1.visible = q is not None
+        if self._links[0].visible != (q is not None):
+            self._links[0].visible = q is not None
         if q is None:
             return
         if name and name != self._name:
             self._name = self._label.text = name
-        for number, (node, angle) in enumerate(zip((self._link1, self._link2), q, strict=True)):
-            if self._moved.is_due(f"{self._root}{number}", (angle,)):
-                node.wxyz = turn(angle)
+        for link, angle in zip(self._links, q, strict=True):
+            if self._moved.is_due(link.name, (angle,)):
+                link.wxyz = turn(angle)
 
 
 class Trail:
     """The path of a point over the last seconds, in the plane of the tip."""
 
     def __init__(
-        self, server: viser.ViserServer, node: str, color: look.Rgb, thickness: float
+        self, server: viser.ViserServer, node: str, color: look.Rgb, thickness: float, tip_z: float
     ) -> None:
         self._lines = server.scene.add_line_segments(
             node,
@@ -68,7 +74,7 @@ class Trail:
             color,
             thickness=thickness,
             thickness_units="screen",
-            position=(0.0, 0.0, solids.TIP_Z),
+            position=(0.0, 0.0, tip_z),
             visible=False,
         )
         self._points: deque[tuple[float, float]] = deque(maxlen=TRAIL_POINTS)
@@ -95,14 +101,20 @@ class Trail:
 
 class Ellipse:
     """Stiffness of the tip as an ellipse: half axes with the root of K, so that soft and stiff are
-    both seen. `_FULL_AXIS` is that of the greatest stiffness of the joints over l1 l2.
+    both seen. `_FULL_AXIS` is that of the greatest stiffness of the joints over the sum of the
+    products of each two lengths.
     """
 
     def __init__(
-        self, server: viser.ViserServer, moved: Moved, stiffness: float, lengths: Lengths
+        self,
+        server: viser.ViserServer,
+        moved: Moved,
+        stiffness: float,
+        lengths: Sequence[float],
+        tip_z: float,
     ) -> None:
-        self._moved = moved
-        self._scale = _FULL_AXIS / math.sqrt(stiffness / (lengths.link1 * lengths.link2))
+        self._moved, self._tip_z = moved, tip_z
+        self._scale = _FULL_AXIS / math.sqrt(stiffness) * math.sqrt(sum_pairs(lengths))
         scene = server.scene
         self._frame = scene.add_frame("/a/k", show_axes=False, visible=False)
         disc, edge = solids.build_disc_and_edge()
@@ -125,7 +137,7 @@ class Ellipse:
             self._frame.visible = ellipse is not None
         if ellipse is None:
             return
-        at = (-tip[1], tip[0], solids.TIP_Z - 0.2)
+        at = (-tip[1], tip[0], self._tip_z - 0.2)
         if self._moved.is_due("ellipse at", at):
             self._frame.position = at
         axes = [

@@ -1,6 +1,7 @@
 """The data of an arm that the view shows at one instant."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from svsa_scene.pose import ActuatorPose
@@ -39,14 +40,14 @@ class ArmPose:
     """One instant of an arm.
 
     Attributes:
-        joints: Poses of the actuators of joint 1 and joint 2.
-        comparison: q1 and q2 of the second arm, rad; None without one.
+        joints: Poses of the actuators, from joint 1 on.
+        comparison: Angles q of the second arm, rad; None without one.
         comparison_name: Name of its controller.
         load: Loads at the tip.
     """
 
-    joints: tuple[ActuatorPose, ActuatorPose]
-    comparison: tuple[float, float] | None = None
+    joints: Sequence[ActuatorPose]
+    comparison: Sequence[float] | None = None
     comparison_name: str = ""
     load: TipLoad = TipLoad()
 

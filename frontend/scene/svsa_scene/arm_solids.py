@@ -11,17 +11,23 @@ from svsa_scene.geometry import join, make_arrow_head, make_bar, make_disc, make
 from svsa_scene.mechanism import Group
 
 REACH = 8.0
-"""l1 + l2 in scene units."""
+"""Length of the straight arm in scene units."""
 LINK_Z = (0.72, 0.96)
 """Front and back of a link, in the frame of its joint: in the plane of the actuator's link."""
 STEP_Z = 2.78
-"""From joint 1 to joint 2 along the axes: the gearbox of joint 2 is mounted on link 1."""
-TIP_Z = STEP_Z + 0.84
+"""From joint to joint along the axes: the gearbox of joint 2 is mounted on link 1."""
+_TIP_Z = 0.84
+"""From the last joint to the plane of the tip along the axes."""
 _FLANGE_Z = (LINK_Z[0] - 0.04, LINK_Z[1] + 0.04)
 
 
-def build_link1(length: float) -> Group:
-    """Link 1 from the ring of its joint to the flange of joint 2, at x = `length`."""
+def find_tip_z(joints: int) -> float:
+    """Return the plane of the tip along the axes, in the frame "/a"."""
+    return STEP_Z * (joints - 1) + _TIP_Z
+
+
+def build_link(length: float) -> Group:
+    """A link from the ring of its joint to the flange of the next joint, at x = `length`."""
     bars = [make_bar((0.86, 0.0, 0.3), (length, 0.0, 0.42), LINK_Z)]
     flange = [make_ring(0.36, 0.56, _FLANGE_Z, bevel=0.03)]
     for part in flange:
@@ -29,8 +35,8 @@ def build_link1(length: float) -> Group:
     return [look.paint(join(bars), look.LINK), look.paint(join(flange), look.STEEL)]
 
 
-def build_link2(length: float) -> Group:
-    """Link 2 from the ring of its joint to the tip, at x = `length`."""
+def build_last_link(length: float) -> Group:
+    """The last link from the ring of its joint to the tip, at x = `length`."""
     bar = make_bar((0.86, 0.0, 0.28), (length, 0.0, 0.13), LINK_Z)
     tip = make_disc(0.17, (LINK_Z[0] - 0.05, LINK_Z[1] + 0.12), bevel=0.04, at=(length, 0.0))
     return [look.paint(join([bar]), look.LINK), look.paint(join([tip]), look.STEEL)]
@@ -69,11 +75,11 @@ def build_head() -> trimesh.Trimesh:
     return join([make_arrow_head(0.24, 0.55)])
 
 
-def build_wall(length: float) -> trimesh.Trimesh:
+def build_wall(length: float, tip_z: float) -> trimesh.Trimesh:
     """A wall at y < 0, whose surface is y = 0."""
     half = length / 2.0
     return join(
-        [make_plate([(-half, -0.4), (half, -0.4), (half, 0.0), (-half, 0.0)], (-1.0, TIP_Z + 1.0))]
+        [make_plate([(-half, -0.4), (half, -0.4), (half, 0.0), (-half, 0.0)], (-1.0, tip_z + 1.0))]
     )
 
 

@@ -52,6 +52,7 @@ def build_replay_html(
     window: MeasuredWindow | None = None,
     actuator: MechanismParameters | None = None,
     arm: ReplayArm | None = None,
+    plant: str = "simulated",
 ) -> str:
     """Build the page of a run; takes some seconds and starts viser on a loopback port: call it in a
     thread.
@@ -60,13 +61,13 @@ def build_replay_html(
         title: Heading, any text.
         period_s: Control period, s.
         lanes: 1–4 names; the first is drawn as the actuator, the others as outlines of their links.
-            Of an arm joint 1 and joint 2, then those of the comparison.
+            Of an arm those of its joints, then those of the comparison.
         channels: Names as in `svsa.actuators.signals.CHANNELS`, at least those of a pose; others
             are left out.
         samples: float64 (ticks, lanes, channels), SI.
         load_mass_kg: Hanging mass at every tick, (ticks,), kg; None for none. That of an arm is in
             its `loads`.
-        details: Information about the run (JSON); `version` and other simple values are in the
+        details: Information about the run by label (JSON); the first simple values are in the
             header.
         events: Events, marked on the plots if they are within these samples.
         first_tick: Tick of the first sample, as in events and window; the page's time begins there
@@ -75,6 +76,7 @@ def build_replay_html(
         window: Window of the metrics; by default the whole run.
         actuator: Parameters of the plant, which name the actuator; by default the SVSA.
         arm: The arm whose joint 1 has this actuator; None for a single joint.
+        plant: "simulated", "emulated" or "bench".
 
     Returns:
         The HTML.
@@ -105,6 +107,7 @@ def build_replay_html(
         "lanes": lanes,
         "arm": arm and arm.links.model_dump(mode="json"),
         "segments": [[_write_segment(one, period_s) for one in lane] for lane in segments],
+        "plant": plant,
         "details": details,
         "events": [
             _write_event(event, period_s, first_tick)

@@ -89,7 +89,7 @@ def _build_replay(
 ) -> ActuatorReplay | ArmReplay:
     if arm is None or parameters is None:
         return ActuatorReplay(server, samples, parameters)
-    return ArmReplay(server, samples, parameters, arm)
+    return ArmReplay(server, samples, arm)
 
 
 @contextlib.contextmanager

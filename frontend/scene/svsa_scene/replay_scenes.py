@@ -25,7 +25,6 @@ _GHOST_STEP = 0.16
 _MAX_NAMED = 2
 _LONGEST_NAME = 16
 _ON_GHOST = (1.43, 0.1, 0.86)
-_JOINTS = 2
 _PATH_POINTS = 1500
 
 
@@ -34,12 +33,12 @@ class ReplayArm(NamedTuple):
 
     Attributes:
         links: The links.
-        actuator2: The actuator of joint 2.
+        actuators: The actuator of each joint.
         loads: Loads at the tip, each with the tick from which it acts, from the first sample on.
     """
 
     links: ArmParameters
-    actuator2: MechanismParameters
+    actuators: Sequence[MechanismParameters]
     loads: Sequence[tuple[int, TipLoad]] = ((0, TipLoad()),)
 
 
@@ -99,36 +98,34 @@ class ActuatorReplay:
 
 
 class ArmReplay:
-    """The first two lanes as the joints of an arm, the next two as the outline of the comparison,
-    and the whole path of the tip and of its reference.
+    """The first lanes as the joints of an arm, further ones as the outline of the comparison, and
+    the whole path of the tip and of its reference.
     """
 
     def __init__(
         self,
         server: viser.ViserServer,
         samples: RecordedSamples,
-        parameters: MechanismParameters,
         arm: ReplayArm,
     ) -> None:
-        self._samples = samples
-        self._loads = arm.loads
-        self.scene = ArmScene(server, arm.links, (parameters, arm.actuator2), has_trail=False)
+        self._samples, self._loads, self._count = samples, arm.loads, len(arm.actuators)
+        self.scene = ArmScene(server, arm.links, arm.actuators, has_trail=False)
         stride = max(1, math.ceil(len(samples.values) / _PATH_POINTS))
         position, reference = (
-            samples.get_column(name)[::stride, :_JOINTS]
+            samples.get_column(name)[::stride, : self._count]
             for name in ("position_rad", "position_reference_rad")
         )
         self.scene.draw_paths(position, reference)
 
     def show(self, tick: int) -> None:
         """Show a tick, counted from the first sample."""
-        samples = self._samples
-        others = [float(q) for q in samples.get_column("position_rad")[tick, _JOINTS:]]
-        is_compared = len(others) == _JOINTS and all(map(math.isfinite, others))
-        name = samples.lanes[_JOINTS][-1].name.split(" ", 2)[-1] if is_compared else ""
+        samples, count = self._samples, self._count
+        others = samples.get_column("position_rad")[tick, count:].tolist()
+        is_compared = len(others) == count and all(map(math.isfinite, others))
+        name = samples.lanes[count][-1].name.split(" ", 2)[-1] if is_compared else ""
         pose = ArmPose(
-            (samples.read(tick, 0), samples.read(tick, 1)),
-            comparison=(others[0], others[1]) if is_compared else None,
+            [samples.read(tick, lane) for lane in range(count)],
+            comparison=others if is_compared else None,
             comparison_name=name,
             load=self._loads[bisect.bisect(self._loads, tick, key=lambda one: one[0]) - 1][1],
         )

@@ -49,24 +49,25 @@ def solve_rates(
 ) -> tuple[float, float]:
     """(q1', p') of l1 cos q1 q1' + l2 cos p p' = x and l1 sin q1 q1' + l2 sin p p' = y."""
     scale = 1.0 / (c1 * sp - s1 * cp)
-    return (sp * x - cp * y) * scale / arm.length1, (c1 * y - s1 * x) * scale / arm.length2
+    l1, l2 = arm.lengths[0], arm.lengths[-1]
+    return (sp * x - cp * y) * scale / l1, (c1 * y - s1 * x) * scale / l2
 
 
 @compiled
 def compute_joint_motions(arm: Arm, elbow: float, x: Motion, y: Motion) -> tuple[Motion, Motion]:
-    """Inverse kinematics with four derivatives: q1 and q2 of a tip at (x, y).
+    """Inverse kinematics of two links with four derivatives: q1 and q2 of a tip at (x, y).
 
     With p = q1 + q2 the tip is (l1 sin q1 + l2 sin p, −l1 cos q1 − l2 cos p). Its k-th derivative
     is linear in those of q1 and p, always with the Jacobian; what lower orders add follows from
     `compute_sine_of` with the k-th derivative at zero. The tip may not reach q2 = 0 or ±π.
 
     Args:
-        arm: Its lengths.
+        arm: Its two lengths.
         elbow: Sign of q2, 1 or −1.
         x: Horizontal, m.
         y: Upwards, m.
     """
-    l1, l2 = arm.length1, arm.length2
+    l1, l2 = arm.lengths[0], arm.lengths[-1]
     r2 = x.d0 * x.d0 + y.d0 * y.d0
     r = math.sqrt(r2)
     q2 = compute_arc((r2 - l1 * l1 - l2 * l2) / (2.0 * l1 * l2), elbow)

@@ -11,7 +11,7 @@ from svsa.actuators.parameters import ActuatorParameters
 from svsa.actuators.signals import CHANNELS
 from svsa.actuators.spring import compute_spring_derivatives
 from svsa.inputs.checked import check_number
-from svsa.runs.definition.configuration import Design
+from svsa.runs.definition.design import Design
 from svsa.runs.definition.design_file import load_prototype
 
 STATES = (

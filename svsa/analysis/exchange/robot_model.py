@@ -103,14 +103,14 @@ def _list_bodies(configuration: Configuration) -> list[Body]:
         inertia = joints[0].actuator.link_inertia_kg_m2
         bodies.append(Body("link1", "q1", "", 0.0, 0.0, 1.0, inertia, dampings[0]))
     else:
-        a = configuration.arm.links
-        own1, own2 = (a.mass1_kg, a.inertia1_kg_m2), (a.mass2_kg, a.inertia2_kg_m2)
-        bodies += [
-            Body("link1", "q1", "", 0.0, -a.center1_m, *own1, dampings[0]),
-            Body("link2", "q2", "link1", -a.length1_m, -a.center2_m, *own2, dampings[1]),
-        ]
-        if a.tip_mass_kg > 0.0:
-            bodies.append(Body("tip", "", "link2", -a.length2_m, 0.0, a.tip_mass_kg, _SMALL))
+        links = configuration.arm.links
+        parent, end = "", 0.0
+        for number, (a, damping) in enumerate(zip(links.chain, dampings, strict=True), start=1):
+            own = a.mass_kg, a.inertia_kg_m2, damping
+            bodies.append(Body(f"link{number}", f"q{number}", parent, end, -a.center_m, *own))
+            parent, end = f"link{number}", -a.length_m
+        if links.tip_mass_kg > 0.0:
+            bodies.append(Body("tip", "", parent, end, 0.0, links.tip_mass_kg, _SMALL))
     for number, joint in enumerate(joints, start=1):
         p = joint.actuator
         own = p.motor1_inertia_kg_m2, p.motor1_damping_nms_per_rad, _find_torque_limit(joint)

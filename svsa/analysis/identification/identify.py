@@ -9,7 +9,8 @@ from svsa.analysis.identification.fit import Progress, fit
 from svsa.analysis.identification.initial_guess import guess_noise, guess_states
 from svsa.analysis.identification.kernel import Parameters
 from svsa.analysis.identification.record import Evidence, IdentificationError, read_evidence
-from svsa.runs.definition.configuration import Configuration, Design
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.definition.design import Design
 from svsa.runs.records.reader import Record
 
 CONFIDENCE = 0.95

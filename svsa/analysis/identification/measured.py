@@ -27,7 +27,7 @@ from svsa.analysis.identification.record import (
 from svsa.errors import ParameterError, Violation
 from svsa.inputs import arrow as pa
 from svsa.inputs.checked import check_number
-from svsa.runs.definition.configuration import Design
+from svsa.runs.definition.design import Design
 from svsa.runs.definition.experiment import build_experiment
 from svsa.runs.result.recorded import find_record
 from svsa.simulation.reference.series_csv import CSV_FORMAT

@@ -4,9 +4,11 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
+from pydantic import field_validator
 
 from svsa.actuators.domain import INSIDE
 from svsa.control.installed import get_law, list_law_names
+from svsa.errors import ParameterError, Violation
 from svsa.evaluation.metrics import compute_metrics, find_held
 from svsa.evaluation.ranking.results import rank_held
 from svsa.evaluation.ranking.table import format_p
@@ -14,6 +16,7 @@ from svsa.evaluation.ranking.test_set import NAME
 from svsa.evaluation.statistics import estimate_median, estimate_share
 from svsa.evaluation.trials import LOAD_S
 from svsa.evaluation.tuning.arm import (
+    ARM,
     ArmController,
     ArmTrial,
     build_arm_problem,
@@ -23,12 +26,16 @@ from svsa.evaluation.tuning.arm import (
 from svsa.evaluation.tuning.judge import LOUD
 from svsa.evaluation.tuning.tuner import Candidate, tune
 from svsa.inputs.checked import Checked, Flag, Number, Whole, quantity
+from svsa.runs.definition.arm_experiment import ARMS
 
-LEFT_OUT = ("ilc", "nmpc")
-"""A law that learns over repetitions, and one that takes a thousand times as long as the others."""
+LEFT_OUT = ("ilc", "impedance", "nmpc")
+"""A law that learns over repetitions, one that yields to loads by choice, and one that takes a
+thousand times as long as the others.
+"""
 INFEASIBLE = " †"
 """Mark of a row whose search found no parameters that are at rest below the noise limit."""
-OUTPUTS = ("joint 1: e [°]", "joint 2: e [°]", "joint 1: e_σ [%]", "joint 2: e_σ [%]")
+OUTPUTS = ("e [°]", "e_σ [%]")
+"""Of each joint."""
 HEADINGS = ("rank", "controller", "held of {trials}, % (95 %)", "faults", "p against NDOBC")
 
 
@@ -40,6 +47,19 @@ class ArmProtocol(Checked):
     validation: Whole = quantity("", "Validation trials of the best ten", ge=1, default=48)
     trials: Whole = quantity("", "Test trials", ge=1, default=96)
     seed: Whole = quantity("", "Seed of searches and trials", ge=0, default=0)
+    arm: str = quantity("", "Name of the arm", default=ARM)
+
+    @field_validator("arm")
+    @classmethod
+    def _check_arm(cls, name: str) -> str:
+        if name not in ARMS:
+            raise ParameterError(Violation("", name, "", "one of " + ", ".join(ARMS)))
+        return name
+
+    @property
+    def joints(self) -> int:
+        """Number of joints of the arm."""
+        return len(ARMS[self.arm].links.chain)
 
 
 class Median(Checked):
@@ -59,10 +79,11 @@ class ArmRow(Checked):
     values: dict[str, Number] = quantity("", "Tuned values by name")
     before: Number = quantity("1", "Cost of the default parameters on the validation trials")
     after: Number = quantity("1", "Cost of the tuned parameters on the validation trials")
-    held: tuple[Flag, ...] = quantity("", "Whether both joints held, of each test trial")
+    held: tuple[Flag, ...] = quantity("", "Whether all joints held, of each test trial")
     faults: Whole = quantity("", "Test trials that ended in a fault", ge=0)
     outputs: tuple[Median, ...] = quantity(
-        "", "Median of rms position error (°) and rms stiffness error (%) of both joints"
+        "",
+        "Medians of the rms position error (°), then of the rms stiffness error (%), of each joint",
     )
 
     @property
@@ -98,7 +119,7 @@ def list_arm_controllers() -> list[ArmController]:
 
 def build_arm_test(protocol: ArmProtocol) -> ArmTest:
     """Build the test trials of a protocol."""
-    return ArmTest(protocol, build_arm_trials(NAME, protocol.seed, protocol.trials))
+    return ArmTest(protocol, build_arm_trials(NAME, protocol.seed, protocol.trials, protocol.arm))
 
 
 def measure_arm_row(
@@ -124,7 +145,7 @@ def measure_arm_row(
         validation=p.validation,
         seed=p.seed,
         on_candidate=on_candidate,
-        problem=build_arm_problem(controller),
+        problem=build_arm_problem(controller, p.arm),
     )
     summaries = run_arm_trials(test.trials, controller, tuned.design)
     labels = [axis.label for axis in tuned.space.axes]
@@ -142,14 +163,14 @@ def measure_arm_row(
 
 
 def _list_errors(test: ArmTest, summaries: np.ndarray) -> list[np.ndarray]:
-    """List rms position errors (°), then rms stiffness errors (%), of both joints.
+    """List rms position errors (°), then rms stiffness errors (%), of each joint.
 
     Each array has shape (trials,); infinite for a trial that ended in a fault.
     """
     periods = np.array([trial.configuration.sampling.period_s for trial in test.trials])
     sigmas = np.array([trial.sigmas for trial in test.trials])
     positions, stiffnesses = [], []
-    for joint in (0, 1):
+    for joint in range(test.protocol.joints):
         metrics = compute_metrics(summaries[:, joint], periods, LOAD_S)
         ended = summaries["code"][:, joint] != INSIDE
         share = metrics["rms_stiffness_error_nm_per_rad"] / sigmas[:, joint]
@@ -194,7 +215,10 @@ def order_arm_rows(rows: Sequence[ArmRow], protocol: ArmProtocol) -> ArmResults:
 
 def list_arm_headings(results: ArmResults) -> list[str]:
     """List the headings of the table, with the number of trials."""
-    return [heading.format(trials=results.protocol.trials) for heading in HEADINGS] + list(OUTPUTS)
+    p = results.protocol
+    joints = range(1, p.joints + 1)
+    outputs = [f"joint {joint}: {output}" for output in OUTPUTS for joint in joints]
+    return [heading.format(trials=p.trials) for heading in HEADINGS] + outputs
 
 
 def list_arm_cells(results: ArmResults) -> list[list[str]]:

@@ -33,6 +33,7 @@ def rank_arm(
     ] = 48,
     trials: Annotated[int, typer.Option(min=1, help="Test trials.")] = 96,
     seed: Annotated[int, typer.Option(min=0, help="Seed of searches and trials.")] = 0,
+    arm: Annotated[str, typer.Option(help="Name of the arm.")] = "rods",
     save: Annotated[
         Path | None,
         typer.Option(help="Write results to this file after each row; other rows are unchanged."),
@@ -54,7 +55,7 @@ def rank_arm(
     )
 
     protocol = ArmProtocol(
-        budget=budget, training=training, validation=validation, trials=trials, seed=seed
+        budget=budget, training=training, validation=validation, trials=trials, seed=seed, arm=arm
     )
     offered = {controller.key: controller for controller in list_arm_controllers()}
     for key in rows or ():
@@ -99,15 +100,15 @@ def _build_table(results: "ArmResults") -> Table:
 
     p = results.protocol
     title = (
-        f"Controllers of an arm: {p.budget} candidates on {p.training} trials each, tested on"
-        f" {p.trials}, seed {p.seed}"
+        f"Controllers of the arm {p.arm}: {p.budget} candidates on {p.training} trials each,"
+        f" tested on {p.trials}, seed {p.seed}"
     )
     table = Table(
         box=SIMPLE_HEAD,
         padding=(0, 1, 0, 0),
         title=title,
         title_justify="left",
-        caption=f"Held: {HELD}, of both joints.{INFEASIBLE}: no parameters below the noise limit.",
+        caption=f"Held: {HELD}, of all joints.{INFEASIBLE}: no parameters below the noise limit.",
         caption_justify="left",
     )
     for number, heading in enumerate(list_arm_headings(results)):

@@ -14,7 +14,8 @@ from svsa.evaluation.actuator_scale import build_scenario_run, scale_rate
 from svsa.evaluation.scenario import Scenario
 from svsa.evaluation.tuning.search_space import build_space
 from svsa.evaluation.tuning.tuned_law import TunedLaw, load_tuned_laws
-from svsa.runs.definition.configuration import Configuration, Design, Lane
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.definition.design import Design, Lane
 from svsa.runs.definition.design_file import load_prototype
 from svsa.runs.definition.shorthand import read_mechanism
 

@@ -14,8 +14,11 @@ _Bound = Number | None
 _POSITIVE: dict[str, Any] = {"gt": 0}
 _RANGE: dict[str, dict[str, Any]] = {"limit_share": {"ge": 0, "le": 1}}
 _FIELDS: Any = {
-    name: (_Bound, quantity(unit, meaning, default=None, **_RANGE.get(name, _POSITIVE)))
-    for name, (unit, meaning) in QUANTITIES.items()
+    name: (
+        _Bound,
+        quantity(unit, meaning, title=title, default=None, **_RANGE.get(name, _POSITIVE)),
+    )
+    for name, (title, unit, meaning) in QUANTITIES.items()
 }
 
 

@@ -10,8 +10,10 @@ from svsa.control.gains import Gains
 from svsa.control.installed import check_installed
 from svsa.errors import ParameterError, Violation
 from svsa.inputs.checked import Checked
-from svsa.runs.definition.configuration import Configuration, Lane
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.definition.design import Lane
 from svsa.runs.definition.shorthand import read_mechanism
+from svsa.runs.records.former_words import translate_path
 from svsa.simulation.plant.effects import EVERY, IDEAL, RIG
 
 Step = str | int
@@ -66,7 +68,7 @@ def parse_path(path: str) -> tuple[Step, ...]:
     if not _PATH.fullmatch(path):
         bound = "names joined by dots, with [0], [1] … for an item of a list"
         raise ParameterError(Violation("", path, "", bound))
-    parts = _PART.findall(path)
+    parts = _PART.findall(translate_path(path))
     steps = tuple(int(part[1:-1]) if part[0] == "[" else part for part in parts)
     if steps[0] in NOT_VARIED:
         bound = "another setting: laws and seed are the study's own"

@@ -2,7 +2,6 @@
 
 import json
 import math
-import re
 from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any
@@ -12,12 +11,11 @@ from rich.table import Table
 
 from svsa.actuators.installed import get_mechanism
 from svsa.control.installed import get_title
-from svsa.evaluation.metrics import METRICS, RECOVERY
+from svsa.evaluation.metrics import METRICS, QUANTITIES, RECOVERY
 from svsa.evaluation.statistics import Interval
 from svsa.evaluation.studies.study import Study
 from svsa.evaluation.studies.summary import LawSummary, Pairing, Sensitivity
 
-_UNIT = re.compile(r"(_rad_s|_nm_per_rad|_n2m2_s|_rad|_nm|_s)$")
 _DECIMALS, _MAX_DECIMALS = 2, 12
 _DEGREES = {"rad": "°", "rad·s": "°·s"}
 
@@ -30,12 +28,12 @@ def build_summary_tables(
     `actuator` selects the runs of one actuator; empty: all runs.
     """
     whose = f"{get_mechanism(actuator).title}: " if actuator else ""
-    asked = " and ".join(
-        f"{format_metric(name)} ≤ {format_value(name, value)} {format_unit(name)}"
+    bounds = "".join(
+        f"; {format_metric(name)} ≤ {format_value(name, value)} {format_unit(name)}"
         for name, value in study.success.list_bounds().items()
     )
     success = Table("law", "runs", "success (95 %)", "faults", title_justify="left")
-    success.title = f"{whose}{study.title}. Success: no fault{f' and {asked}' if asked else ''}"
+    success.title = f"{whose}{study.title}. Success: no fault{bounds}"
     for law in laws:
         faults = ", ".join(f"{count} {code}" for code, count in law.faults.items()) or "none"
         refused = f", and {law.refused} samples rejected" if law.refused else ""
@@ -104,8 +102,8 @@ def build_sensitivity_table(sensitivity: Sensitivity) -> Table:
 
 
 def format_metric(name: str) -> str:
-    """Format a metric's name, without its unit."""
-    return _UNIT.sub("", name).replace("_", " ")
+    """Return a metric's title, without its unit."""
+    return QUANTITIES[name][0]
 
 
 def format_value(metric: str, value: float) -> str:

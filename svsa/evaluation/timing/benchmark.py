@@ -118,9 +118,9 @@ def run_c_lanes(loop: CLoop, run: Run, ticks: int) -> tuple[np.ndarray, np.ndarr
 def build_arm_work(ticks: int) -> Callable[[], object]:
     """Build the work of the kernel of an arm with the same law: `ticks` ticks."""
     run = ArmRun(build_arm_experiment("rods", {}, {"law": LAW}))
-    samples, masses = np.empty((2, ticks, len(CHANNELS))), np.empty(ticks)
-    inputs = run.arms[0], *run.laws, run.arm_inputs, run.states[0]
-    return lambda: advance_arm(*inputs, 0, *samples, masses)
+    samples = np.empty((2, ticks, len(CHANNELS)))
+    inputs = run.arms[0], tuple(run.laws), run.arm_inputs, run.states[0]
+    return lambda: advance_arm(*inputs, 0, tuple(samples))
 
 
 def build_actuator_works() -> dict[str, Callable[[], object]]:

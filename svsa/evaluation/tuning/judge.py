@@ -24,7 +24,7 @@ from svsa.evaluation.trials import (
     build_rest,
     list_mean_stiffnesses,
 )
-from svsa.runs.definition.configuration import Design
+from svsa.runs.definition.design import Design
 from svsa.runs.definition.design_file import load_prototype
 from svsa.runs.execution.batch import RunSet
 

@@ -10,7 +10,7 @@ from svsa.control.gains import Gains
 from svsa.control.installed import get_law, has_own_parameters
 from svsa.control.observers.disturbance import ObserverBandwidth
 from svsa.errors import ParameterError, Violation
-from svsa.runs.definition.configuration import Design
+from svsa.runs.definition.design import Design
 
 POLE_RAD_PER_S = (20.0, 80.0)
 OBSERVER_RAD_PER_S = (20.0, 150.0)

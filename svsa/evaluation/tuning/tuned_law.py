@@ -11,7 +11,7 @@ from svsa.evaluation.tuning.search_space import build_space
 from svsa.evaluation.tuning.tuner import Tuned
 from svsa.inputs.checked import Checked, Number, Whole, quantity
 from svsa.inputs.extras import __version__
-from svsa.runs.definition.configuration import Design
+from svsa.runs.definition.design import Design
 from svsa.runs.definition.design_file import load_prototype
 
 FOLDER = Path(__file__).parent / "tuned"

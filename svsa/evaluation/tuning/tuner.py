@@ -15,7 +15,7 @@ from svsa.evaluation.trials import build_set
 from svsa.evaluation.tuning.judge import Judgment, TrialSet, judge
 from svsa.evaluation.tuning.search_space import Space, build_space
 from svsa.inputs.checked import check_number
-from svsa.runs.definition.configuration import Design
+from svsa.runs.definition.design import Design
 from svsa.runs.definition.design_file import load_prototype
 
 BUDGET, MAX_BUDGET = 128, 100_000

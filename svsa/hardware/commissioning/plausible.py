@@ -9,7 +9,7 @@ from svsa.hardware.bench.settings import MotorSettings
 from svsa.hardware.commissioning.step import CheckStep, Result
 from svsa.hardware.description.file import BenchFile
 from svsa.hardware.drives.conversion import MA_PER_A, build_motor_scale
-from svsa.runs.definition.configuration import Design
+from svsa.runs.definition.design import Design
 
 MAX_ANGLE_RAD = 2.0 * math.pi
 TURN_SHARE = 1.5

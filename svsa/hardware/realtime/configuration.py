@@ -11,7 +11,8 @@ from svsa.errors import ParameterError, StateError, Violation
 from svsa.hardware.bench.real_motors import RealMotors
 from svsa.hardware.description.file import BenchFile, check_home
 from svsa.hardware.safety.guard import Guard
-from svsa.runs.definition.configuration import Configuration, Design, Lane
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.definition.design import Design, Lane
 from svsa.runs.definition.design_file import load_prototype, read_design
 from svsa.runs.definition.experiment import build_actuator_experiment
 from svsa.runs.definition.paper import get_figure

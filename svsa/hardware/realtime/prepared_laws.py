@@ -21,7 +21,8 @@ from svsa.control.law import LawError, Setting
 from svsa.control.parameters import LawParameters
 from svsa.errors import StateError
 from svsa.numerics.packed import pack
-from svsa.runs.definition.configuration import Configuration, Lane
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.definition.design import Lane
 from svsa.runs.execution.blocks import build_setting
 from svsa.simulation.loop.lane import Blocks
 

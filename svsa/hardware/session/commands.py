@@ -9,7 +9,8 @@ from svsa.hardware.realtime.configuration import check_loads, check_takes_no_tim
 from svsa.hardware.realtime.launch import Rest
 from svsa.hardware.session.run import TWIN
 from svsa.runs.definition.command import ApplyLoad, Command, Set, is_held
-from svsa.runs.definition.configuration import Configuration, Lane
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.definition.design import Lane
 from svsa.runs.session.journal import Journal
 
 CHANGING_S = 0.001

@@ -17,7 +17,7 @@ from svsa.hardware.session.report import BenchReport
 from svsa.hardware.session.run import BenchRun, describe_start
 from svsa.hardware.session.supervised_loop import SupervisedLoop
 from svsa.inputs.extras import require_extra
-from svsa.runs.definition.command import NO_ARM, Command, JointNumber
+from svsa.runs.definition.command import Command, JointNumber, check_joint
 from svsa.runs.definition.configuration import Configuration
 from svsa.runs.execution.run import Start
 from svsa.runs.records.header import PlantKind
@@ -322,8 +322,7 @@ class BenchSession:
         again: bool = False,
     ) -> None:
         """Apply `set` after the loop has answered earlier changes."""
-        if joint == 2:
-            raise StateError(NO_ARM)
+        check_joint(self.run.configuration, joint)
         if again:
             self.change(build(self.run.configuration))
         else:

@@ -18,7 +18,8 @@ from svsa.hardware.realtime.launch import (
 )
 from svsa.hardware.realtime.loss import Loss, find_loss, is_supervised
 from svsa.hardware.realtime.prepared_laws import UnpreparedLawError, compute_constants
-from svsa.runs.definition.configuration import MAX_LANES, Configuration
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.definition.design import MAX_LANES
 
 UNKNOWN_S = 0.25
 """Time after the last tick for which the process that stops the drives may be unknown, s."""

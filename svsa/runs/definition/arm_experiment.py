@@ -1,9 +1,10 @@
 """The experiments of an arm, and their settings."""
 
 from collections.abc import Mapping, Sequence
+from itertools import cycle, zip_longest
 from typing import Any, NamedTuple
 
-from svsa.actuators.arm.parameters import MACCEPA_ARM, RODS, ArmParameters
+from svsa.actuators.arm.parameters import FOUR_RODS, MACCEPA_ARM, RODS, ArmParameters
 from svsa.actuators.parameters import INERTIAS_KG_M2
 from svsa.control.installed import PAPERS_LAW
 from svsa.errors import ParameterError, Violation
@@ -18,10 +19,13 @@ from svsa.simulation.reference.kinds.reference import AnyPosition
 from svsa.simulation.reference.kinds.sine import SinePosition
 
 
-def compute_joint_inertias(arm: ArmParameters) -> tuple[float, float]:
-    """Constant link inertias for the nominal models: the diagonal of M(q) at q2 = ±90°, kg·m²."""
-    a = arm.build()
-    return a.inertia1 + a.inertia2, a.inertia2
+def compute_joint_inertias(arm: ArmParameters) -> tuple[float, ...]:
+    """Constant link inertias for the nominal models: Σ_{i≥j} a_ii of each joint j, kg·m².
+
+    That is the diagonal of M(q) averaged over all angles; for two links its value at q2 = ±90°.
+    """
+    own = [row[number] for number, row in enumerate(arm.build().inertia)]
+    return tuple(sum(own[number:]) for number in range(len(own)))
 
 
 _SINES = (
@@ -41,9 +45,9 @@ class NamedArm(NamedTuple):
         title: Its name on the page.
         description: What it is, in a sentence.
         links: Parameters of its links.
-        actuator: Name of the actuator of both joints.
-        stiffness_nm_per_rad: Default stiffness of both joints.
-        motions: Default reference of each joint.
+        actuator: Name of the actuator of its joints.
+        stiffness_nm_per_rad: Default stiffness of its joints.
+        motions: Default reference of the joints, in turns.
     """
 
     title: str
@@ -51,7 +55,22 @@ class NamedArm(NamedTuple):
     links: ArmParameters
     actuator: str
     stiffness_nm_per_rad: float
-    motions: tuple[SinePosition, SinePosition]
+    motions: tuple[SinePosition, ...]
+
+    def build_links(self, count: int) -> ArmParameters:
+        """Return its first links.
+
+        Args:
+            count: Number of links.
+
+        Raises:
+            ParameterError: If it has fewer.
+        """
+        chain = self.links.chain
+        if not 1 <= count <= len(chain):
+            bound = f"1 to {len(chain)}, one for each link of this arm"
+            raise ParameterError(Violation("actuators", count, "", bound))
+        return self.links.changed(chain=chain[:count])
 
 
 ARMS: Mapping[str, NamedArm] = {
@@ -71,6 +90,14 @@ ARMS: Mapping[str, NamedArm] = {
         2.5,
         _GENTLE,
     ),
+    "chain": NamedArm(
+        "Four rods",
+        "Four rods of 0.2 m and 0.3 kg, hanging, with the SVSA in every joint.",
+        FOUR_RODS,
+        "svsa",
+        120.0,
+        (SinePosition(amplitude_rad=0.2, frequency_hz=0.25),),
+    ),
 }
 """The arms by name."""
 
@@ -78,8 +105,8 @@ ARMS: Mapping[str, NamedArm] = {
 def build_arm_experiment(
     experiment: str | Configuration,
     fields: Mapping[str, Any],
-    both: Mapping[str, Any],
-    each: Sequence[Mapping[str, Any]] = ({}, {}),
+    all_joints: Mapping[str, Any],
+    each: Sequence[Mapping[str, Any]] = (),
     tip_loads: Load | Sequence[Load] | None = None,
 ) -> Configuration:
     """Build the configuration of an arm's experiment.
@@ -87,8 +114,8 @@ def build_arm_experiment(
     Args:
         experiment: Name of an arm ("rods", "maccepa"), or the configuration of an arm.
         fields: Fields of `ArmSetup` to replace.
-        both: Settings of both joints, as `svsa.runs.definition.shorthand.Settings` and `law`.
-        each: Settings of joint 1 and of joint 2, after those of both.
+        all_joints: Settings of all joints, as `svsa.runs.definition.shorthand.Settings` and `law`.
+        each: Settings of each joint, from joint 1 on, after those of all.
         tip_loads: Loads at the tip; None: those of the experiment.
 
     Returns:
@@ -103,22 +130,59 @@ def build_arm_experiment(
     if not isinstance(first, Configuration):
         first = _build_named(first, fields.get("links"))
     arm = first.require_arm()
-    joints = []
-    for number, (joint, own) in enumerate(zip(split_joints(first), each, strict=True), start=1):
+    joints, separate = [], split_joints(first)
+    for number, own in enumerate(each, start=1):
         if not isinstance(own, Mapping) or not all(isinstance(name, str) for name in own):
             bound = 'a dict of settings by name, such as {"stiffness": 40}'
             raise ParameterError(Violation(f"joint{number}", own, "", bound))
+        if own and number > len(separate):
+            bound = f"omitted: the joints of this arm are 1 to {len(separate)}"
+            raise ParameterError(Violation(f"joint{number}", dict(own), "", bound))
+    for number, (joint, own) in enumerate(zip_longest(separate, each[: len(separate)]), start=1):
         try:
-            joints.append(_change_joint(joint, {**both, **own}))
+            joints.append(_change_joint(joint, {**all_joints, **(own or {})}))
         except ParameterError as error:
             raise error.within(f"joint{number}") if own else error from None
     at_tip = tuple(load for load in first.loads if load.acts_as == TIP)
     at_tip = at_tip if tip_loads is None else _read_tip_loads(tip_loads)
-    own, second = joints
-    setup = arm.changed(**{**fields, "joint2": second})
-    if setup.tip is not None and any("position" in settings for settings in (both, *each)):
+    first, *others = joints
+    setup = arm.changed(**{**fields, "other_joints": tuple(others)})
+    if setup.tip is not None and any("position" in settings for settings in (all_joints, *each)):
         raise reject_position(setup.tip)
-    return own.changed(arm=setup, loads=(*own.loads, *at_tip))
+    return first.changed(arm=setup, loads=(*first.loads, *at_tip))
+
+
+def build_actuated_arm(
+    name: str,
+    actuators: Sequence[str],
+    fields: Mapping[str, Any] = {},
+    all_joints: Mapping[str, Any] = {},
+) -> Configuration:
+    """Build the configuration of an arm with an actuator in each joint.
+
+    Args:
+        name: Name of an arm.
+        actuators: Name of the actuator of each joint, from joint 1 on; by default those of the arm.
+            Fewer actuators than links make an arm of the first links.
+        fields: As for `build_arm_experiment`.
+        all_joints: As for `build_arm_experiment`.
+
+    Returns:
+        The configuration.
+
+    Raises:
+        ParameterError: As `build_arm_experiment`; or for a number of actuators that the arm cannot
+            have.
+    """
+    fields, each = dict(fields), [{"actuator": actuator} for actuator in actuators]
+    if actuators and name in ARMS:
+        links = ARMS[name].build_links(len(actuators))
+        fields |= {"links": links, "model": links}
+        # Stored scripts rely on it: with another actuator in a joint, all joints begin with the
+        # settings of their actuators, in place of those of the arm.
+        if set(actuators) == {ARMS[name].actuator}:
+            each = []
+    return build_arm_experiment(name, fields, all_joints, each)
 
 
 def split_joints(configuration: Configuration) -> tuple[Configuration, ...]:
@@ -138,7 +202,7 @@ def _read_tip_loads(tip_loads: Load | Sequence[Load]) -> tuple[Load, ...]:
     loads = read_loads(tip_loads, "tip_loads")
     for number, load in enumerate(loads):
         if load.acts_as != TIP:
-            bound = "a load at the tip; give a load on a joint as loads of joint1 or joint2"
+            bound = "a load at the tip; give a load on a joint as loads of joint1, joint2 …"
             raise ParameterError(Violation(f"tip_loads[{number}]", load.kind, "", bound))
     return loads
 
@@ -151,14 +215,15 @@ def _build_named(name: str, arm: ArmParameters | None) -> Configuration:
     links = named.links if arm is None else arm
     if not isinstance(links, ArmParameters):
         raise ParameterError(Violation("arm", links, "", "svsa.ArmParameters"))
-    for number, inertia in enumerate(compute_joint_inertias(links), start=1):
-        name = f"the inertia of the arm about joint {number} at q2 = ±90°"
+    inertias = compute_joint_inertias(links)
+    for number, inertia in enumerate(inertias, start=1):
+        name = f"the mean inertia of the arm about joint {number}"
         check_number(name, inertia, "kg·m²", *INERTIAS_KG_M2)
-    first, second = (
+    first, *others = (
         _build_joint(named.actuator, inertia, motion, stiffness=named.stiffness_nm_per_rad)
-        for inertia, motion in zip(compute_joint_inertias(links), named.motions, strict=True)
+        for inertia, motion in zip(inertias, cycle(named.motions), strict=False)
     )
-    return first.changed(arm=ArmSetup(links=links, model=links, joint2=second))
+    return first.changed(arm=ArmSetup(links=links, model=links, other_joints=tuple(others)))
 
 
 def _build_joint(

@@ -12,6 +12,7 @@ from svsa.control.observers.disturbance import ObserverBandwidth
 from svsa.errors import ParameterError, Violation
 from svsa.inputs.checked import Checked, Flag, Number, Whole, check_number, quantity
 from svsa.runs.definition.command import OF_ARM, Command, build_command
+from svsa.runs.definition.configuration import MAX_JOINTS
 from svsa.simulation.plant.effects import Effects
 from svsa.simulation.plant.loads import Load
 from svsa.simulation.reference.kinds import PositionReference, StiffnessReference
@@ -41,7 +42,11 @@ class Change(Checked):
     load: Load | None = None
     feedforward: Flag | None = quantity("", "Whether the arm feedforward is on", default=None)
     joint: Whole | None = quantity(
-        "", "Joint of an arm; None: both, and joint 1 for a torque", ge=1, le=2, default=None
+        "",
+        "Joint of an arm; None: all, and joint 1 for a torque",
+        ge=1,
+        le=MAX_JOINTS,
+        default=None,
     )
 
     @model_validator(mode="after")
@@ -51,7 +56,7 @@ class Change(Checked):
             raise ParameterError(Violation("change", {}, "", f"of {names}"))
         of_arm = [name for name in self.list_given() if name in OF_ARM]
         if self.joint is not None and of_arm:
-            bound = f"omitted with {of_arm[0]}, which acts on both joints"
+            bound = f"omitted with {of_arm[0]}, which acts on all joints"
             raise ParameterError(Violation("joint", self.joint, "", bound))
         return self
 

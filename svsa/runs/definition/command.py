@@ -16,7 +16,8 @@ from svsa.control.installed import LawName
 from svsa.errors import ParameterError, StateError, Violation
 from svsa.inputs.checked import BY_KIND, Checked, Whole, quantity
 from svsa.inputs.explanation import explain
-from svsa.runs.definition.configuration import ArmSetup, Configuration, Lane, LaneSetting
+from svsa.runs.definition.configuration import MAX_JOINTS, ArmSetup, Configuration
+from svsa.runs.definition.design import Lane, LaneSetting
 from svsa.simulation.plant.loads import Load
 
 Settable = Literal[
@@ -81,7 +82,7 @@ _VALUES = {field: _build_value(field) for field in get_args(Settable)}
 
 
 JointNumber: TypeAlias = int
-"""1 or 2."""
+"""From 1 to the number of joints."""
 
 
 class _Command(Checked):
@@ -99,7 +100,7 @@ class _Command(Checked):
         "",
         "Joint of an arm; None for a single joint, and for a command to the whole arm",
         ge=1,
-        le=2,
+        le=MAX_JOINTS,
         default=None,
     )
 
@@ -186,21 +187,29 @@ def fold(configuration: Configuration, command: Command, is_bench: bool = False)
     if not isinstance(command, Set):
         return configuration
     c, arm = configuration, configuration.arm
-    if arm is None:
-        if command.joint == 2 or command.kind in OF_ARM:
-            raise StateError(NO_ARM)
-        return c.changed(**list_changes(command, c.comparisons, is_bench))
-    if command.kind in OF_ARM:
+    if arm is not None and command.kind in OF_ARM:
         return c.changed(arm=arm.changed(**{command.kind: command.argument}))
-    changes: dict[str, Any] = {}
-    if command.joint != 2:
-        changes = list_changes(command, c.comparisons)
-    if command.joint != 1:
-        second = arm.joint2
-        changes["arm"] = arm.changed(
-            joint2=second.changed(**list_changes(command, second.comparisons))
-        )
-    return c.changed(**changes)
+    if command.kind in OF_ARM:
+        raise StateError(NO_ARM)
+    check_joint(c, command.joint)
+    return c.change_joints(
+        [
+            list_changes(command, joint.comparisons, is_bench)
+            if command.joint in (None, number)
+            else {}
+            for number, joint in enumerate(c.joints, start=1)
+        ]
+    )
+
+
+def check_joint(configuration: Configuration, joint: JointNumber | None) -> None:
+    """Raise `StateError` if a configuration does not have the joint of this number."""
+    joints = len(configuration.joints)
+    if joint is None or joint <= joints:
+        return
+    if configuration.arm is None:
+        raise StateError(NO_ARM)
+    raise StateError(f"This arm has no joint {joint}: its joints are 1 to {joints}.")
 
 
 def list_changes(
@@ -250,18 +259,19 @@ def list_joint_commands(
     Args:
         configuration: The configuration before.
         build: Builds the command from the configuration of a joint.
-        joint: Joint of an arm; None: both, or the single joint.
+        joint: Joint of an arm; None: all, or the single joint.
 
     Returns:
         One command for a single joint, otherwise one for each of these joints.
 
     Raises:
-        ParameterError: If there is no such joint.
+        StateError: If there is no such joint.
     """
+    check_joint(configuration, joint)
     if configuration.arm is None:
-        return [build(configuration).of_joint(None if joint == 1 else joint)]
-    numbers = (1, 2) if joint is None else (joint,)
-    return [build(configuration.joints[number - 1]).of_joint(number) for number in numbers]
+        return [build(configuration)]
+    joints = enumerate(configuration.joints, start=1)
+    return [build(own).of_joint(number) for number, own in joints if joint in (None, number)]
 
 
 def _replace_laws(laws: tuple[str, ...], comparisons: tuple[Lane, ...]) -> tuple[Lane, ...]:

@@ -1,29 +1,24 @@
-"""The configuration of a run: parameters, design, references, loads and arm."""
+"""The configuration of a run: design, laws, references, loads and arm."""
 
+from collections.abc import Mapping, Sequence
 from typing import Any, Self
 
-from pydantic import ValidationInfo, field_validator, model_validator
+from pydantic import model_validator
 
-from svsa.actuators.arm.parameters import ArmParameters
-from svsa.actuators.installed import InstalledActuator
-from svsa.actuators.parameters import Limits, get_mechanism_name
+from svsa.actuators.arm.parameters import MAX_LINKS, ArmParameters
 from svsa.actuators.reach import check_only_stiffness
 from svsa.control.arm_payload import PayloadAdaptation
-from svsa.control.gains import Gains
 from svsa.control.installed import (
     PAPERS_LAW,
-    LaneParameters,
     LawName,
-    ParametersByLaw,
     get_law,
     has_own_parameters,
     is_usable,
-    read_parameters,
 )
-from svsa.control.observers.disturbance import ObserverBandwidth
 from svsa.control.parameters import LawParameters
 from svsa.errors import ParameterError, Violation
-from svsa.inputs.checked import Checked, Flag, Number, Whole, quantity
+from svsa.inputs.checked import Checked, Flag, Whole, quantity
+from svsa.runs.definition.design import MAX_LANES, Design, Lane
 from svsa.simulation.arm.tip_reference import TipReference
 from svsa.simulation.plant.effects import IDEAL, Effects
 from svsa.simulation.plant.loads import Load
@@ -31,110 +26,11 @@ from svsa.simulation.plant.loads.load import MASS, TIP
 from svsa.simulation.reference.kinds import PositionReference, StiffnessReference, get_range
 
 MAX_LOADS = 16
-MAX_LANES = 4
-
-
-class Sampling(Checked):
-    """The sampling of the loop."""
-
-    period_s: Number = quantity("s", "Control period T, zero-order hold", ge=1e-4, le=0.02)
-
-
-class Design(Checked):
-    """The content of a parameter file: plant, nominal model, gains, laws, observer, limits,
-    sampling.
-    """
-
-    actuator: InstalledActuator
-    nominal: InstalledActuator
-    gains: Gains
-    parameters: ParametersByLaw = quantity(
-        "",
-        "Parameters of laws that have their own, by the law's name; else its defaults",
-        default={},
-    )
-    observer: ObserverBandwidth
-    limits: Limits
-    sampling: Sampling
-
-    @model_validator(mode="after")
-    def _check_mechanism(self) -> Self:
-        of_plant, of_model = map(get_mechanism_name, (self.actuator, self.nominal))
-        if of_plant != of_model:
-            bound = f"{of_plant}, as that of the actuator"
-            raise ParameterError(Violation("nominal.mechanism", of_model, "", bound))
-        return self
-
-    def find_parameters(self, lane: "Lane") -> LawParameters | None:
-        """Return the parameters that were set for a lane's law.
-
-        Args:
-            lane: A lane of a run with this design.
-
-        Returns:
-            The lane's parameters, otherwise those of the design, otherwise None.
-        """
-        if has_own_parameters(lane.law):
-            return lane.parameters or self.parameters.get(lane.law)
-        return lane.gains or self.gains
-
-    def get_parameters(self, lane: "Lane") -> LawParameters:
-        """Return the parameters of a lane's law: the lane's, the design's, or the defaults.
-
-        Args:
-            lane: A lane of a run with this design.
-
-        Returns:
-            The parameters.
-
-        Raises:
-            ParameterError: If the law is not installed and no parameters are set.
-        """
-        parameters = self.find_parameters(lane)
-        return get_law(lane.law).parameters() if parameters is None else parameters
-
-
-class Lane(Checked):
-    """A controller with its own plant: same references, loads and noise as the others."""
-
-    law: LawName = quantity("", "Name of an installed law")
-    gains: Gains | None = quantity(
-        "", "Gains of a law that uses them (FL, NDOBC); by default those of the run", default=None
-    )
-    parameters: LaneParameters = quantity(
-        "", "Parameters of a law that has its own; by default those of the run", default=None
-    )
-    observer: ObserverBandwidth | None = quantity(
-        "", "Observer bandwidth; by default that of the run", default=None
-    )
-
-    @field_validator("parameters")
-    @classmethod
-    def _read_parameters(cls, parameters: Any, info: ValidationInfo) -> LawParameters | None:
-        law = info.data.get("law")
-        return parameters if parameters is None or law is None else read_parameters(law, parameters)
-
-    def controlled_by(self, law: str) -> Self:
-        """Return the lane with another law: gains and observer are kept, parameters are not.
-
-        Args:
-            law: Name of the law.
-
-        Returns:
-            The lane; itself if it already has this law.
-        """
-        return self if law == self.law else self.changed(law=law, parameters=None)
-
-
-class LaneSetting(Checked):
-    """The controller of a comparison lane."""
-
-    lane: Whole = quantity("", "Number of the lane; 1 is the run's own", ge=2, le=MAX_LANES)
-    setting: Lane
+MAX_JOINTS = MAX_LINKS
 
 
 class ArmSetup(Checked):
-    """The arm whose joint 1 the rest of the configuration describes: links and joint 2.
+    """The arm whose joint 1 the rest of the configuration describes: links and the other joints.
 
     Each joint has its own actuator, nominal model, law, gains, observer, limits, effects,
     references and torques. The arm's M(q) replaces the link inertia of its plant; its nominal link
@@ -150,7 +46,9 @@ class ArmSetup(Checked):
     tip: TipReference | None = quantity(
         "", "Reference of the tip, in place of the joints' position references", default=None
     )
-    joint2: "Configuration"
+    other_joints: "tuple[Configuration, ...]" = quantity(
+        "", "The joints from the second on", max_length=MAX_JOINTS - 1
+    )
 
 
 class Configuration(Design):
@@ -191,30 +89,50 @@ class Configuration(Design):
                 bound = "loads on a joint; those at the tip are tip_loads of svsa.simulate_arm"
                 raise ParameterError(Violation("loads", "at the tip", "", bound))
             return self
+        if arm.tip is not None and len(self.joints) != 2:
+            bound = "None: inverse kinematics of the tip is that of an arm of two links"
+            raise ParameterError(Violation("arm.tip", arm.tip.kind, "", bound))
         if arm.tip is not None:
             arm.tip.check_reach(arm.links)
-        second = arm.joint2
-        for name, joint in (("", self), ("arm.joint2", second)):
-            if wrong := _list_wrong(joint, arm, is_second=joint is second):
-                error = ParameterError(*wrong)
-                raise error.within(name) if name else error
-        if all(map(_has_push, (self, second))):
-            bound = "loads without a push at t = 0: one acts on joint 1 already"
-            raise ParameterError(Violation("arm.joint2.loads", "push", "", bound))
-        if second.sampling != self.sampling:
-            bound = f"{self.sampling.period_s:g} s, as that of joint 1"
-            value = second.sampling.period_s
-            raise ParameterError(Violation("arm.joint2.sampling.period_s", value, "s", bound))
-        if len(second.comparisons) != len(self.comparisons):
-            bound = f"{len(self.comparisons)}, as for joint 1"
-            value = len(second.comparisons)
-            raise ParameterError(Violation("arm.joint2.comparisons", value, "", bound))
+        joints = len(self.joints)
+        for name, links in (("arm.links", arm.links), ("arm.model", arm.model)):
+            if len(links.chain) != joints:
+                bound = f"{joints} links, one for each joint"
+                raise ParameterError(Violation(f"{name}.chain", len(links.chain), "", bound))
+        if wrong := _list_wrong(self, arm):
+            raise ParameterError(*wrong)
+        for number, joint in enumerate(arm.other_joints, start=2):
+            if wrong := [*_list_wrong(joint, arm), *_list_unequal(joint, self)]:
+                raise ParameterError(*wrong).within(f"joint{number}")
+        pushed = [number for number, joint in enumerate(self.joints, start=1) if _has_push(joint)]
+        if len(pushed) > 1:
+            bound = f"loads without a push at t = 0: one acts on joint {pushed[0]} already"
+            raise ParameterError(Violation(f"joint{pushed[1]}.loads", "push", "", bound))
         return self
 
     @property
     def joints(self) -> "tuple[Configuration, ...]":
-        """The configuration of each joint: itself, and joint 2 of an arm."""
-        return (self,) if self.arm is None else (self, self.arm.joint2)
+        """The configuration of each joint: itself, and the other joints of an arm."""
+        return (self,) if self.arm is None else (self, *self.arm.other_joints)
+
+    def change_joints(self, changes: Sequence[Mapping[str, Any]]) -> Self:
+        """Return the configuration with changed fields of each joint, which are changed together.
+
+        Args:
+            changes: New values by name of the field, for each joint.
+
+        Returns:
+            The changed configuration.
+
+        Raises:
+            ParameterError: If a value is invalid.
+        """
+        own, *others = changes
+        if self.arm is None:
+            return self.changed(**own)
+        pairs = zip(self.arm.other_joints, others, strict=True)
+        joints = tuple(joint.changed(**fields) for joint, fields in pairs)
+        return self.changed(**own, arm=self.arm.changed(other_joints=joints))
 
     @property
     def controllers(self) -> tuple[Lane, ...]:
@@ -223,7 +141,7 @@ class Configuration(Design):
 
     @property
     def lanes(self) -> tuple[Lane, ...]:
-        """All lanes: each controller, for an arm that of joint 1, then that of joint 2."""
+        """All lanes: each controller, for an arm that of joint 1, then those of the others."""
         controllers = zip(*(joint.controllers for joint in self.joints), strict=True)
         return tuple(lane for lanes in controllers for lane in lanes)
 
@@ -236,7 +154,7 @@ class Configuration(Design):
         """Return the arm.
 
         Returns:
-            Links, joint 2, and what acts on both joints.
+            Links, the other joints, and what acts on all joints.
 
         Raises:
             ParameterError: If the run is one of a single joint.
@@ -249,15 +167,12 @@ class Configuration(Design):
         """Return the configuration with the planned loads of another one, joint by joint.
 
         Args:
-            other: Configuration of the loads, of an arm if this is one.
+            other: Configuration of the loads, with as many joints.
 
         Returns:
             The changed configuration.
         """
-        if self.arm is None or other.arm is None:
-            return self.changed(loads=other.loads)
-        second = self.arm.joint2.changed(loads=other.arm.joint2.loads)
-        return self.changed(loads=other.loads, arm=self.arm.changed(joint2=second))
+        return self.change_joints([{"loads": joint.loads} for joint in other.joints])
 
     def list_parameters(self) -> dict[str, LawParameters]:
         """List the parameters that were set, and those of the lanes' laws.
@@ -288,19 +203,37 @@ def _has_push(joint: Configuration) -> bool:
     return any(load.is_push and load.start_s is None for load in on_joint)
 
 
-def _list_wrong(joint: Configuration, arm: ArmSetup, is_second: bool) -> list[Violation]:
+def _list_unequal(joint: Configuration, first: Configuration) -> list[Violation]:
+    """List what another joint of an arm cannot have next to joint 1."""
+    violations: list[Violation] = []
+    if joint.arm is not None:
+        bound = "None: the joints of an arm have no arm of their own"
+        violations.append(Violation("arm", "an arm", "", bound))
+    for load in joint.loads:
+        if load.acts_as == TIP:
+            bound = "torques; a load at the tip is a load of joint 1"
+            violations.append(Violation("loads", load.kind, "", bound))
+    if joint.sampling != first.sampling:
+        bound = f"{first.sampling.period_s:g} s, as that of joint 1"
+        violations.append(Violation("sampling.period_s", joint.sampling.period_s, "s", bound))
+    if len(joint.comparisons) != len(first.comparisons):
+        bound = f"{len(first.comparisons)}, as for joint 1"
+        violations.append(Violation("comparisons", len(joint.comparisons), "", bound))
+    return violations
+
+
+def _list_wrong(joint: Configuration, arm: ArmSetup) -> list[Violation]:
     """List what a joint of an arm cannot have."""
     violations: list[Violation] = []
-    if is_second and joint.arm is not None:
-        violations.append(Violation("arm", "an arm", "", "None: an arm has two joints"))
-    if len(joint.comparisons) > MAX_LANES // 2 - 1:
-        bound = f"at most {MAX_LANES // 2 - 1} comparison of an arm"
+    joints = 1 + len(arm.other_joints)
+    if (1 + len(joint.comparisons)) * joints > MAX_LANES:
+        bound = f"at most {MAX_LANES // joints - 1} comparison of an arm of {joints} joints"
         violations.append(Violation("comparisons", len(joint.comparisons), "", bound))
     if joint.effects.gravity is not None:
         bound = "None: the weight of the links is in the parameters of the arm"
         violations.append(Violation("effects.gravity", joint.effects.gravity, "", bound))
     for load in joint.loads:
-        if load.acts_as == MASS or (is_second and load.acts_as == TIP):
+        if load.acts_as == MASS:
             bound = "torques; a mass hangs at the tip (tip_mass), which is a load of joint 1"
             violations.append(Violation("loads", load.kind, "", bound))
     for lane in joint.controllers if arm.feedforward else ():

@@ -10,7 +10,7 @@ import tomli_w
 from svsa.control.installed import check_installed
 from svsa.errors import ParameterError
 from svsa.inputs.toml_file import parse_toml, read_toml
-from svsa.runs.definition.configuration import Design
+from svsa.runs.definition.design import Design
 
 PARAMETER_FILE = "parameter file"
 PROTOTYPE_FILE = Path(__file__).parents[2] / "actuators" / "prototype.toml"

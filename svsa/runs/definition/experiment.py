@@ -9,7 +9,8 @@ from typing import Any
 from svsa.actuators.installed import get_mechanism
 from svsa.actuators.mechanism import Mechanism
 from svsa.actuators.reach import find_only_stiffness
-from svsa.runs.definition.configuration import Configuration, Design
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.definition.design import Design
 from svsa.runs.definition.design_file import read_design
 from svsa.runs.definition.paper import LOAD_TIME_S, get_simulated_figure
 from svsa.runs.definition.shorthand import change_configuration

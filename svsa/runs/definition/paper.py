@@ -3,7 +3,8 @@
 from typing import NamedTuple
 
 from svsa.errors import ParameterError, Violation
-from svsa.runs.definition.configuration import Configuration, Design
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.definition.design import Design
 from svsa.runs.definition.design_file import load_prototype
 from svsa.simulation.plant.loads import Load
 from svsa.simulation.plant.loads.constant import ConstantLoad

@@ -19,7 +19,8 @@ from svsa.errors import ParameterError, Violation
 from svsa.inputs.checked import Checked
 from svsa.inputs.explanation import explain
 from svsa.inputs.nearest import suggest
-from svsa.runs.definition.configuration import Configuration, Lane, Sampling
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.definition.design import Lane, Sampling
 from svsa.simulation.plant.effects import PRESETS, Effects
 from svsa.simulation.plant.effects.effect import PresetName
 from svsa.simulation.plant.loads import Load
@@ -110,7 +111,7 @@ def change_configuration(
 
     Args:
         configuration: The configuration to change.
-        settings: As `Settings`, and `law`.
+        settings: As `Settings`, and `law`, whose value may be a `Lane` with parameters of its own.
         keywords: Further keywords of the caller, which the error message may suggest.
 
     Raises:
@@ -132,6 +133,8 @@ def change_configuration(
             )
         )
     present = dict(configuration)
+    if isinstance(lane := settings.get("law"), Lane):
+        settings = {**settings, **_read_controller(lane, configuration.parameters)}
     if isinstance(name := settings.get("actuator"), str):
         mechanism = read_mechanism(name)
         present |= mechanism
@@ -139,6 +142,14 @@ def change_configuration(
     return configuration.changed(
         **{name: read_setting(name, value, present[name]) for name, value in settings.items()}
     )
+
+
+def _read_controller(lane: Lane, parameters: Mapping[str, Any]) -> dict[str, Any]:
+    """Convert the controller of the first lane to fields of a configuration."""
+    written = {"law": lane.law, "gains": lane.gains, "observer": lane.observer}
+    if lane.parameters is not None:
+        written["parameters"] = {**parameters, lane.law: lane.parameters}
+    return {name: value for name, value in written.items() if value is not None}
 
 
 def read_mechanism(name: str, field: str = "actuator") -> dict[str, Any]:

@@ -1,7 +1,7 @@
 """A run of an arm from t = 0."""
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -29,13 +29,12 @@ from svsa.simulation.reference.transition import build_shape_stack
 class Coupled(NamedTuple):
     """What an arm carries next to the lanes of its joints: `ArmState` without them."""
 
-    known1: Known
-    known2: Known
+    known: tuple[Known, ...]
     payload: Payload
 
 
 class ArmRun(Run):
-    """A simulated run of an arm, tick by tick, of one or two arms: two lanes each.
+    """A simulated run of an arm, tick by tick, of one or two arms: a lane for each joint.
 
     It begins on the references: links and principal motors at q_d(0) with q̇_d(0), springs relaxed,
     and the lever ratios that make σ(0) = σ_d(0).
@@ -51,16 +50,15 @@ class ArmRun(Run):
             self._positions = [build_shape_stack(shape) for shape in arm.tip.build_path()]
             self._renew_inputs()
         self._coupled: list[Coupled] = []
-        self._masses: np.ndarray | None = None
         self._join_blocks(self.configuration)
-        for first in range(0, len(self.lanes), 2):
-            known = plan(self.arms[first // 2], self.arm_inputs, 0)
-            for lane, planned in enumerate(known, start=first):
+        for number, arm_blocks in enumerate(self.arms):
+            known = plan(arm_blocks, self.arm_inputs, 0)
+            for lane, planned in enumerate(known, start=number * self._count):
                 r = planned.reference
                 x = State(r.q, r.dq, r.q, r.dq, 0.0, 0.0)
                 begun = self.lanes[lane]._replace(x=x, known=x)
                 self.lanes[lane] = shift_estimate(begun, planned.w)
-            self._coupled.append(Coupled(known[0], known[1], Payload()))
+            self._coupled.append(Coupled(known, Payload()))
 
     @property
     def payloads_kg(self) -> list[float]:
@@ -70,38 +68,41 @@ class ArmRun(Run):
     @property
     def states(self) -> list[ArmState]:
         """`ArmState` of each arm at the current tick."""
-        pairs = zip(self.lanes[::2], self.lanes[1::2], self._coupled, strict=True)
-        return [ArmState(lane1, lane2, *coupled) for lane1, lane2, coupled in pairs]
+        return [
+            ArmState(tuple(lanes), *coupled)
+            for lanes, coupled in zip(self._split(self.lanes), self._coupled, strict=True)
+        ]
 
-    def keep_masses(self, masses: np.ndarray) -> None:
-        """Write m̂ of each tick, kg, into `masses` (arms, ticks) from now on."""
-        self._masses = masses
+    @property
+    def _count(self) -> int:
+        """Number of joints."""
+        return len(self.configuration.joints)
+
+    def _split(self, lanes: Sequence[Any]) -> list[Sequence[Any]]:
+        """What belongs to the lanes of each arm."""
+        return [lanes[at : at + self._count] for at in range(0, len(lanes), self._count)]
 
     def _advance_plant(self, number: int, rows: np.ndarray) -> Reached:
-        state, laws = self.states[number], self.laws[2 * number : 2 * number + 2]
-        blocks, done, codes = self.arms[number], 0, [INSIDE, INSIDE]
-        masses = (
-            np.empty(rows.shape[1]) if self._masses is None else self._masses[number, self.tick :]
-        )
-        kind = "arm", *(law.function for law in laws), blocks.joint1.steps
+        state, laws = self.states[number], tuple(self._split(self.laws)[number])
+        blocks, done, codes = self.arms[number], 0, (INSIDE,) * self._count
+        kind = "arm", *(law.function for law in laws), blocks.joints[0].steps
         for begin, stop in cut(kind, rows.shape[1]):
-            state, count, *codes = advance_arm(
-                blocks, *laws, self.arm_inputs, state, self.tick + done,
-                rows[0, begin:stop], rows[1, begin:stop], masses[begin:stop],
-            )  # fmt: skip
+            samples = tuple(rows[:, begin:stop])
+            state, count, codes = advance_arm(
+                blocks, laws, self.arm_inputs, state, self.tick + done, samples
+            )
             done += count
-            if codes != [INSIDE, INSIDE]:
+            if any(code != INSIDE for code in codes):
                 break
-        coupled = Coupled(state.known1, state.known2, state.payload)
-        return Reached((state.joint1, state.joint2), coupled, done, tuple(codes))
+        return Reached(state.joints, Coupled(state.known, state.payload), done, codes)
 
     def _keep(self, reached: list[Reached]) -> None:
         super()._keep(reached)
         self._coupled = [plant_state.coupled for plant_state in reached]
 
     def _name_lane(self, number: int) -> str:
-        arm = " of the comparison" if number > 1 else ""
-        return f"Joint {number % 2 + 1}{arm}"
+        arm, joint = divmod(number, self._count)
+        return f"Joint {joint + 1}{' of the comparison' if arm else ''}"
 
     def _push(self, kind: str, after: Configuration, joint: int | None) -> None:
         tip = self.configuration.require_arm().tip
@@ -114,12 +115,13 @@ class ArmRun(Run):
 
         ŵ2 stays: it estimates the whole w2, which does not depend on what of it the laws know.
         """
-        self._coupled = [self._coupled[(origin or 0) // 2] for origin in origins[::2]]
+        count = self._count
+        self._coupled = [self._coupled[(origin or 0) // count] for origin in origins[::count]]
         self._join_blocks(after)
         for number, (blocks, coupled) in enumerate(zip(self.arms, self._coupled, strict=True)):
             payload = coupled.payload if blocks.adaptation.share > 0.0 else Payload()
             known = plan(adapt_blocks(blocks, payload.mass), self.arm_inputs, self.tick)
-            self._coupled[number] = Coupled(known[0], known[1], payload)
+            self._coupled[number] = Coupled(known, payload)
 
     def _join_blocks(self, c: Configuration) -> None:
         """Build the `ArmBlocks` of each arm."""
@@ -127,8 +129,7 @@ class ArmRun(Run):
         elbow = arm.tip.sign if arm.tip else 0.0
         adaptation = arm.adaptation.build(self.period_s) if arm.adaptation else NO_ADAPTATION
         shared = arm.links.build(), arm.model.build(), arm.feedforward, elbow, adaptation
-        pairs = zip(self.blocks[::2], self.blocks[1::2], strict=True)
-        self.arms = [ArmBlocks(*shared, *pair) for pair in pairs]
+        self.arms = [ArmBlocks(*shared, tuple(joints)) for joints in self._split(self.blocks)]
 
     def _schedule(self, load: Load, joint: int) -> ScheduledLoad:
         if isinstance(load, Wall):
@@ -149,11 +150,11 @@ class ArmRun(Run):
         on_joints = [held for held in self.loads if held.load.acts_as != TIP]
         tables = [
             build_load_table(tuple(held for held in on_joints if held.joint == number))
-            for number in (1, 2)
+            for number in range(1, self._count + 1)
         ]
         stacks = zip(self._positions, self._stiffnesses, tables, strict=True)
-        first, second = (Inputs(*parts) for parts in stacks)
-        self.arm_inputs = ArmInputs(first, second, build_tip_table(self.loads, self.period_s))
+        inputs = tuple(Inputs(*parts) for parts in stacks)
+        self.arm_inputs = ArmInputs(inputs, build_tip_table(self.loads, self.period_s))
 
 
 def build_run(configuration: Configuration) -> Run:

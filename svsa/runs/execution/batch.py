@@ -9,7 +9,8 @@ from svsa.actuators.parameters import MechanismParameters, get_mechanism_name
 from svsa.control.installed import get_law
 from svsa.control.observers.disturbance import compute_shares
 from svsa.numerics.simd.record import lay_out_record
-from svsa.runs.definition.configuration import Configuration, Design, Lane
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.definition.design import Design, Lane
 from svsa.runs.execution.blocks import build_blocks, build_setting, compute_start_ratio
 from svsa.runs.timeline.loads import follow_loads
 from svsa.simulation.loop.batch import Batch, build_batch, run_batch

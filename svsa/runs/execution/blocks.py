@@ -12,7 +12,8 @@ from svsa.control.installed import get_law
 from svsa.control.law import Setting
 from svsa.control.observers.disturbance import compute_shares
 from svsa.numerics.exponential import exp
-from svsa.runs.definition.configuration import Configuration, Lane
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.definition.design import Lane
 from svsa.simulation.loop.lane import Blocks
 from svsa.simulation.plant.effects import build_effect_constants
 from svsa.simulation.reference.kinds import compute_start_value

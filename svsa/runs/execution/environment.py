@@ -13,7 +13,8 @@ import numpy as np
 
 from svsa.errors import ParameterError, Violation
 from svsa.inputs.checked import check_number
-from svsa.runs.definition.configuration import Configuration, Design
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.definition.design import Design
 from svsa.runs.definition.experiment import build_experiment
 from svsa.runs.definition.paper import DURATION_S
 from svsa.runs.definition.shorthand import Settings

@@ -11,7 +11,15 @@ from svsa.actuators.elasticity import compute_coordinate, compute_stiffness_of
 from svsa.actuators.signals import State
 from svsa.control.installed import get_law
 from svsa.errors import Fault, ParameterError, StateError, Violation
-from svsa.runs.definition.command import NO_ARM, ApplyLoad, Command, RemoveLoad, Set, fold
+from svsa.runs.definition.command import (
+    NO_ARM,
+    ApplyLoad,
+    Command,
+    RemoveLoad,
+    Set,
+    check_joint,
+    fold,
+)
 from svsa.runs.definition.configuration import MAX_LOADS, Configuration
 from svsa.runs.definition.run_checks import check_joint_laws, check_lasting_loads
 from svsa.runs.execution.blocks import Bind, Connection, bind_law, compute_start_ratio, connect_lane
@@ -263,7 +271,7 @@ class Run:
         """Give what the plants carry next to their lanes to the plants that continue them."""
 
     def add_load(self, load: Load, joint: int = 1) -> ScheduledLoad:
-        """Apply a load now or at its `start_s`, to the first joint or to joint 2 of an arm.
+        """Apply a load now or at its `start_s`, to a joint, by default the first.
 
         A push while another one is active changes that one, which is returned. Each command counts,
         so that a load's number is that of its command.
@@ -272,13 +280,14 @@ class Run:
             ParameterError: If the load is not one for this run.
             StateError: If there are too many loads.
         """
+        check_joint(self.configuration, joint)
         self._check_load(load, joint)
         scheduled = self._schedule(load, joint)
         self._renew_inputs()
         return scheduled
 
     def _check_load(self, load: Load, joint: int) -> None:
-        if load.acts_as == TIP or joint != 1:
+        if load.acts_as == TIP:
             raise StateError(NO_ARM)
 
     def _schedule(self, load: Load, joint: int) -> ScheduledLoad:

@@ -23,7 +23,8 @@ from svsa.errors import Fault, FaultError, ParameterError, Violation
 from svsa.inputs.checked import check_number
 from svsa.numerics.compilation import compiled
 from svsa.numerics.packed import pack
-from svsa.runs.definition.configuration import Configuration, Design, Lane
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.definition.design import Design, Lane
 from svsa.runs.definition.experiment import build_experiment
 from svsa.runs.definition.shorthand import Settings, change_configuration
 from svsa.runs.execution.fault import build_fault

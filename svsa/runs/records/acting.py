@@ -8,7 +8,7 @@ from pydantic import TypeAdapter, ValidationError
 from svsa.actuators.parameters import Limits
 from svsa.errors import ParameterError
 from svsa.runs.definition.command import OF_ARM, Set, Settable, list_changes
-from svsa.runs.definition.configuration import Lane, Sampling
+from svsa.runs.definition.design import Lane, Sampling
 from svsa.runs.records.header import RecordHeader
 from svsa.runs.records.parquet import Commands
 from svsa.runs.timeline.loads import Loads, follow_loads
@@ -109,8 +109,8 @@ def _read(adapter: TypeAdapter[Any], written: Any) -> Any:
 
 def _find_loads(header: RecordHeader, commands: Commands, first: int, end: int) -> Loads | None:
     own, arm = header.configuration, header.configuration.get("arm")
-    second = arm.get("joint2", {}) if isinstance(arm, dict) else {}
-    planned = _read(_LOADS, [*(own.get("loads") or ()), *(second.get("loads") or ())])
+    joints = [own, *(arm.get("other_joints", ()) if isinstance(arm, dict) else ())]
+    planned = _read(_LOADS, [load for joint in joints for load in joint.get("loads") or ()])
     if planned is None:
         return None
     changes: list[tuple[int, Load | int]] = []

@@ -10,6 +10,7 @@ from pydantic import BaseModel
 from svsa.control.gains import Gains
 from svsa.control.parameters import LawParameters
 from svsa.runs.definition.command import OF_ARM
+from svsa.runs.definition.configuration import Configuration
 from svsa.runs.records.acting import SETTINGS, Acting, read_acting
 from svsa.runs.records.reader import Record
 from svsa.runs.records.settings import NO_LOAD
@@ -41,6 +42,8 @@ _GROUPS = {
 _LOADS, _CHANGED, _RECORD = "Loads", "Changed while it was recorded", "Record"
 _ARM = "Arm"
 _ANGULAR = "rad/s"
+_TAGS = {"kind": "Form", "mechanism": "Actuator"}
+"""Labels of the fields that name the class of a value."""
 _SAME_POLE = 0.01
 
 
@@ -75,6 +78,33 @@ def compare_settings(records: Sequence[Record]) -> tuple[Difference, ...]:
     return tuple(sorted(differing, key=lambda row: order.index(row.group)))
 
 
+def describe_configuration(configuration: Configuration) -> dict[str, dict[str, Any]]:
+    """Describe the settings of a run with their labels and units.
+
+    Args:
+        configuration: The configuration at tick 0.
+
+    Returns:
+        Values by label, by group; the joints of an arm from the second on are groups of the arm.
+    """
+    groups: dict[str, dict[str, Any]] = {}
+    for setting in SETTINGS:
+        for label, value in _flatten(setting, getattr(configuration, setting)):
+            groups.setdefault(_GROUPS[setting], {})[_join(*label)] = value
+    loads = "; ".join(load.describe() for load in configuration.loads)
+    groups[_LOADS] = {_LOADS: loads or NO_LOAD}
+    if configuration.arm is not None:
+        rows = _flatten_model(configuration.arm, omitted=("other_joints",))
+        others = enumerate(configuration.arm.other_joints, start=2)
+        joints = {f"Joint {number}": describe_configuration(joint) for number, joint in others}
+        groups[_ARM] = {_join(*label): value for label, value in rows} | joints
+    return groups
+
+
+def _join(name: str, unit: str) -> str:
+    return f"{name}, {unit}" if unit else name
+
+
 def _list_rows(record: Record) -> Rows:
     header = record.header
     acting = read_acting(header, record.commands, record.first_tick, record.tick_count)
@@ -93,7 +123,7 @@ def _list_rows(record: Record) -> Rows:
     if header.is_arm:
         for name, value in _flatten_arm(header.configuration["arm"], ""):
             rows[_ARM, name, ""] = value
-        rows[_ARM, "Changes of joint 2 and of the arm", ""] = _list_arm_changes(record)
+        rows[_ARM, "Changes of the arm and of joints from 2 on", ""] = _list_arm_changes(record)
     rows[_RECORD, "Recorded on", ""] = header.plant
     rows[_RECORD, "Version of svsa", ""] = header.version
     return rows
@@ -104,6 +134,9 @@ def _flatten_arm(written: Any, path: str) -> Iterator[tuple[str, str]]:
     if isinstance(written, dict):
         for name, value in written.items():
             yield from _flatten_arm(value, f"{path}.{name}" if path else name)
+    elif isinstance(written, list) and any(isinstance(value, dict) for value in written):
+        for number, value in enumerate(written):
+            yield from _flatten_arm(value, f"{path}[{number}]")
     else:
         yield path, json.dumps(written, ensure_ascii=False)
 
@@ -112,7 +145,7 @@ def _list_arm_changes(record: Record) -> str:
     changes = [
         f"{command['kind']} at {(tick - record.first_tick) * record.header.period_s:g} s"
         for tick, command in record.commands
-        if command.get("joint") == 2 or command.get("kind") in OF_ARM
+        if command.get("joint") not in (None, 1) or command.get("kind") in OF_ARM
     ]
     return "; ".join(changes)
 
@@ -176,17 +209,30 @@ def format_poles(roots: Sequence[complex]) -> str:
     return ", ".join(f"{text} ({n}×)" if n > 1 else text for text, n in counts.items())
 
 
-def _flatten_model(model: BaseModel) -> Iterator[tuple[tuple[str, str], Value]]:
+def _flatten_model(
+    model: BaseModel, within: str = "", omitted: Sequence[str] = ()
+) -> Iterator[tuple[tuple[str, str], Value]]:
+    """List names, units and values of a model; within: beginning of the names of a part."""
     for field, about in type(model).model_fields.items():
         value = getattr(model, field)
+        if field in omitted:
+            continue
         extra = about.json_schema_extra
         unit = str(extra.get("unit", "")) if isinstance(extra, dict) else ""
-        name = "Form" if field == "kind" else (about.description or "").removesuffix(f", {unit}")
+        name = _TAGS.get(field) or (about.description or "").removesuffix(f", {unit}")
+        name = within + name
+        if isinstance(value, tuple) and value and isinstance(value[0], BaseModel):
+            for number, part in enumerate(value, start=1):
+                yield from _flatten_model(part, f"{within}{about.title} {number}: ")
+            continue
         is_part = isinstance(value, BaseModel)
+        if is_part and about.is_required():
+            yield from _flatten_model(value, f"{name}: ")
+            continue
         if value is None or is_part:
             yield (name, ""), "on" if is_part else "off"
         if is_part:
-            yield from _flatten_model(value)
+            yield from _flatten_model(value, within)
         elif value is not None:
             is_plain = isinstance(value, str | bool | int | float)
             shown = value if is_plain else ", ".join(map(str, value))

@@ -6,7 +6,10 @@ A record, or the progress of a student, keeps the names of its version. The read
 once, so that all other code uses the current names only.
 """
 
+import re
 from typing import Any
+
+from svsa.actuators.arm.parameters import read_former_field
 
 FIELDS = {"rivals": "comparisons"}
 """Fields of a configuration."""
@@ -47,6 +50,48 @@ def translate_fields(written: Any, words: dict[str, str]) -> Any:
     return {words.get(name, name): value for name, value in written.items()}
 
 
+def translate_configuration(written: Any) -> Any:
+    """Rename and complete the fields of a configuration; an arm had exactly one other joint.
+
+    Args:
+        written: A value read from JSON.
+
+    Returns:
+        The configuration with the current names.
+    """
+    present = translate_fields(written, FIELDS)
+    arm = present.get("arm") if isinstance(present, dict) else None
+    if not isinstance(arm, dict):
+        return present
+    arm = arm | {"adaptation": _translate_adaptation(arm.get("adaptation"))}
+    if "joint2" in arm:
+        joint = translate_configuration(arm["joint2"])
+        others = {name: value for name, value in arm.items() if name != "joint2"}
+        arm = others | {"other_joints": [joint]}
+    return present | {"arm": arm}
+
+
+def _translate_adaptation(written: Any) -> Any:
+    """ŵ2 did not change with the nominal inertia in versions without the field."""
+    return {"shifts_estimate": False} | written if isinstance(written, dict) else written
+
+
+def translate_path(path: str) -> str:
+    """Translate the path of a setting of an arm that had two joints and two links.
+
+    Args:
+        path: Path in a study or an exercise, such as "arm.joint2.stiffness".
+
+    Returns:
+        The path to the same setting now.
+    """
+    links, _, name = path.rpartition(".")
+    if links in ("arm.links", "arm.model") and (former := read_former_field(name)):
+        number, field = former
+        return f"{links}.chain[{number}].{field}"
+    return re.sub(r"^arm\.joint2\b", "arm.other_joints[0]", path)
+
+
 def translate_results(written: Any) -> Any:
     """Rename the fields of a grade or a leaderboard entry, and the scenarios in it.
 
@@ -69,6 +114,8 @@ def _translate_scenario(name: str) -> str:
 
 
 def translate_command(command: dict[str, Any]) -> dict[str, Any]:
-    """Rename the kind of a stored command."""
+    """Rename the kind of a stored command, and complete its argument."""
     kind = command.get("kind")
+    if kind == "adaptation":
+        return command | {"argument": _translate_adaptation(command.get("argument"))}
     return command | {"kind": KINDS[kind]} if kind in KINDS else command

@@ -19,7 +19,7 @@ from svsa.inputs.checked import Checked, Number, Whole, quantity
 from svsa.inputs.extras import __version__
 from svsa.inputs.stored_file import load_json
 from svsa.runs.definition.configuration import Configuration
-from svsa.runs.records.former_words import FIELDS, translate_fields
+from svsa.runs.records.former_words import translate_configuration
 
 FORMAT = 1
 LONGEST_NAME = 200
@@ -199,7 +199,7 @@ def parse_header(text: str) -> RecordHeader:
     try:
         json.dumps(written, ensure_ascii=False).encode()  # rejects surrogates
         if "configuration" in written:
-            written["configuration"] = translate_fields(written["configuration"], FIELDS)
+            written["configuration"] = translate_configuration(written["configuration"])
         return RecordHeader(**written)
     except (ParameterError, TypeError, ValueError, AttributeError) as error:
         raise RecordError(str(error)) from None

@@ -186,7 +186,8 @@ def _find_figure(acting: Acting, on_bench: bool) -> tuple[str, bool]:
 def _describe_laws(acting: Acting, header: RecordHeader) -> str:
     """Describe each lane with its laws over time; a bench's second lane is its twin."""
     every = [lanes or () for lanes in acting.get_values("comparisons")]
-    width = 2 if header.is_arm else 1
+    arm = header.configuration.get("arm")
+    width = 1 + len(arm.get("other_joints", ())) if arm else 1
     if any(width * (1 + len(lanes)) != len(header.lanes) for lanes in every):
         every = [()]
     first = follow(

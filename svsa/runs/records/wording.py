@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Sequence
 
 from svsa.control.installed import get_law, is_usable
-from svsa.runs.definition.configuration import Lane
+from svsa.runs.definition.design import Lane
 from svsa.simulation.plant.effects import EFFECTS, PRESETS, Effects, find_preset
 from svsa.simulation.reference.kinds.reference import AnyReference
 

@@ -6,12 +6,8 @@ from functools import cached_property
 
 import numpy as np
 
-from svsa.actuators.arm.dynamics import (
-    Joints,
-    compute_tip_position,
-    compute_tip_velocity,
-    turn,
-)
+from svsa.actuators.arm.dynamics import compute_tip_position, compute_tip_velocity, turn
+from svsa.actuators.arm.tip_stiffness import compute_tip_stiffness
 from svsa.actuators.signals import CHANNEL_INDEX
 from svsa.errors import Fault
 from svsa.runs.definition.arm_experiment import split_joints
@@ -31,9 +27,8 @@ class ArmResult:
 
     Attributes:
         configuration: At t = 0, that of joint 1 with the arm.
-        samples: (2, ticks, channels), SI, columns as `svsa.actuators.signals.CHANNELS`.
-        payload_kg: Estimated mass at the tip, (ticks,), kg; 0 without adaptation.
-        fault: Why the run ended early, or None; its `lane` is 0 for joint 1 and 1 for joint 2.
+        samples: (joints, ticks, channels), SI, columns as `svsa.actuators.signals.CHANNELS`.
+        fault: Why the run ended early, or None; its `lane` is the number of the joint, from 0.
         steps: Runge–Kutta steps per control period.
         commands: Changes during the run.
         comparisons: Results of the second arm, if there is one.
@@ -42,7 +37,6 @@ class ArmResult:
 
     configuration: Configuration
     samples: np.ndarray = field(repr=False)
-    payload_kg: np.ndarray = field(repr=False)
     fault: Fault | None = None
     steps: int = 1
     commands: tuple[Command, ...] = ()
@@ -50,17 +44,16 @@ class ArmResult:
     number: int = 0
 
     @cached_property
-    def joints(self) -> tuple[Result, Result]:
+    def joints(self) -> tuple[Result, ...]:
         """Result of each joint: channels, metrics, tables, plot."""
         each = zip(split_joints(self.configuration), self.samples, self._laws, strict=True)
-        first, second = (
+        return tuple(
             Result(
                 configuration, rows, self.fault, law=law, commands=self._list_commands(number),
                 name=f"Joint {number}", steps=self.steps, joint=number,
             )
             for number, (configuration, rows, law) in enumerate(each, start=1)
         )  # fmt: skip
-        return first, second
 
     @property
     def _laws(self) -> list[str]:
@@ -81,28 +74,22 @@ class ArmResult:
         return self.samples[0, :, CHANNEL_INDEX["time_s"]]
 
     @property
+    def payload_kg(self) -> np.ndarray:
+        """Estimated mass at the tip, (ticks,), kg; 0 without adaptation."""
+        return self.samples[0, :, CHANNEL_INDEX["payload_estimate_kg"]]
+
+    @property
     def tip_position_m(self) -> np.ndarray:
         """Tip, (ticks, 2), m: x horizontal, y up, from joint 1."""
-        return self._place(self._read("position_rad"))
+        angles = np.cumsum(self._read("position_rad"), 1)
+        up = -self._lengths_m * np.cos(angles)
+        return np.stack([np.sum(self._lengths_m * np.sin(angles), 1), np.sum(up, 1)], 1)
 
     @property
     def tip_stiffness_n_per_m(self) -> np.ndarray:
-        """Stiffness of the tip at rest, J⁻ᵀ diag(σ1, σ2) J⁻¹, (ticks, 2, 2), N/m.
-
-        Without the part of the gravity. Not finite where the arm is straight or folded.
-        """
-        q, sigma = self._read("position_rad"), self._read("stiffness_nm_per_rad")
-        l1, l2 = self._lengths_m
-        p = q[:, 0] + q[:, 1]
-        jacobian = np.empty((len(q), 2, 2))
-        jacobian[:, 0, 1], jacobian[:, 1, 1] = l2 * np.cos(p), l2 * np.sin(p)
-        jacobian[:, 0, 0] = l1 * np.cos(q[:, 0]) + jacobian[:, 0, 1]
-        jacobian[:, 1, 0] = l1 * np.sin(q[:, 0]) + jacobian[:, 1, 1]
-        a, b, c, d = (jacobian[:, i, j] for i in (0, 1) for j in (0, 1))
-        with np.errstate(divide="ignore", invalid="ignore"):
-            inverse = np.stack([np.stack([d, -b], 1), np.stack([-c, a], 1)], 1)
-            inverse /= (a * d - b * c)[:, None, None]
-            return np.einsum("tji,tj,tjk->tik", inverse, sigma, inverse)
+        """Stiffness of the tip at rest, (ticks, 2, 2), N/m: see `compute_tip_stiffness`."""
+        stiffness = self._read("stiffness_nm_per_rad")
+        return compute_tip_stiffness(self._lengths_m, self._read("position_rad"), stiffness)
 
     @cached_property
     def wall_force_n(self) -> np.ndarray:
@@ -119,41 +106,35 @@ class ArmResult:
         arm = self.configuration.require_arm().links.build()
         q, dq = self._read("position_rad"), self._read("velocity_rad_per_s")
         for tick, (angles, rates) in enumerate(zip(q.tolist(), dq.tolist(), strict=True)):
-            at, velocity = turn(Joints(*angles)), Joints(*rates)
-            tip, moves = compute_tip_position(arm, at), compute_tip_velocity(arm, at, velocity)
+            at = turn(tuple(angles))
+            tip = compute_tip_position(arm, at)
+            moves = compute_tip_velocity(arm, at, tuple(rates))
             force[tick] = compute_wall_force(table, tick, tip, moves)
         return force
 
     @property
-    def _lengths_m(self) -> tuple[float, float]:
-        links = self.configuration.require_arm().links
-        return links.length1_m, links.length2_m
+    def _lengths_m(self) -> np.ndarray:
+        return np.array([link.length_m for link in self.configuration.require_arm().links.chain])
 
     def _read(self, channel: str) -> np.ndarray:
-        """A channel of both joints, (ticks, 2)."""
+        """A channel of all joints, (ticks, joints)."""
         return self.samples[:, :, CHANNEL_INDEX[channel]].T
 
-    def _place(self, q: np.ndarray) -> np.ndarray:
-        l1, l2 = self._lengths_m
-        q1, p = q[:, 0], q[:, 0] + q[:, 1]
-        x = l1 * np.sin(q1) + l2 * np.sin(p)
-        return np.stack([x, -l1 * np.cos(q1) - l2 * np.cos(p)], 1)
-
-    def measure(self, start_s: float, end_s: float) -> tuple[float, float]:
-        """Compute the rms position error of both joints between two times of the run.
+    def measure(self, start_s: float, end_s: float) -> tuple[float, ...]:
+        """Compute the rms position error of all joints between two times of the run.
 
         Args:
             start_s: First time of the window, s.
             end_s: Last time of the window, s.
 
         Returns:
-            Of joint 1 and joint 2, rad. `joints[0].measure` has all metrics.
+            Of each joint, rad. `joints[0].measure` has all metrics.
 
         Raises:
             ParameterError: For a window without a sample.
         """
-        first, second = (joint.measure(start_s, end_s) for joint in self.joints)
-        return first.rms_position_error_rad, second.rms_position_error_rad
+        metrics = (joint.measure(start_s, end_s) for joint in self.joints)
+        return tuple(window.rms_position_error_rad for window in metrics)
 
     def __repr__(self) -> str:
         c, arm = self.configuration, self.configuration.require_arm()
@@ -179,7 +160,6 @@ class ArmResult:
 def build_arm_results(
     configuration: Configuration,
     samples: np.ndarray,
-    masses: np.ndarray,
     fault: Fault | None,
     steps: int,
     commands: tuple[Command, ...] = (),
@@ -188,8 +168,7 @@ def build_arm_results(
 
     Args:
         configuration: At t = 0.
-        samples: (lanes, ticks, channels), two lanes for each arm.
-        masses: (arms, ticks), estimated mass at the tip, kg.
+        samples: (lanes, ticks, channels), a lane for each joint of each arm.
         fault: Why the run ended early, or None.
         steps: Runge–Kutta steps per control period.
         commands: Changes during the run.
@@ -197,10 +176,9 @@ def build_arm_results(
     Returns:
         The result of the first arm; the second one is its comparison.
     """
+    arms = np.split(samples, len(samples) // len(configuration.joints))
     first, *others = (
-        ArmResult(
-            configuration, samples[2 * arm : 2 * arm + 2], mass, fault, steps, commands, number=arm
-        )
-        for arm, mass in enumerate(masses)
+        ArmResult(configuration, own, fault, steps, commands, number=number)
+        for number, own in enumerate(arms)
     )
     return replace(first, comparisons=tuple(others))

@@ -37,6 +37,7 @@ ChannelName = Literal[
     "estimate_motor2_nm",
     "position_residual_rad",
     "stiffness_residual_nm_per_rad",
+    "payload_estimate_kg",
 ]
 """The names of `svsa.actuators.signals.CHANNELS`: a typo is an error for a type checker."""
 
@@ -77,6 +78,7 @@ class Channels:
     estimate_motor2_nm: np.ndarray
     position_residual_rad: np.ndarray
     stiffness_residual_nm_per_rad: np.ndarray
+    payload_estimate_kg: np.ndarray
 
     if not TYPE_CHECKING:
 

@@ -7,8 +7,6 @@ import warnings
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-import numpy as np
-
 from svsa.actuators.signals import CHANNEL_NAMES
 from svsa.errors import ParameterError
 from svsa.runs.records.acting import read_acting
@@ -117,8 +115,7 @@ def open_run(run: str | Path) -> Result:
 def open_arm_run(run: str | Path) -> ArmResult:
     """Read a recorded arm as the `ArmResult` that `svsa.simulate_arm` would have returned.
 
-    The samples are those of the record, bit for bit; a channel that it lacks is NaN. The estimated
-    payload is not recorded: NaN.
+    The samples are those of the record, bit for bit; a channel that it lacks is NaN.
 
     Args:
         run: Id of the run, or its folder.
@@ -139,9 +136,7 @@ def open_arm_run(run: str | Path) -> ArmResult:
     except ParameterError as error:
         raise RecordError(f"Run {header.run_id} cannot be opened: {error}") from None
     samples = record.read_channels(CHANNEL_NAMES).transpose(1, 0, 2)
-    unknown = np.full((len(samples) // 2, samples.shape[1]), np.nan)
-    known = record.fault, header.steps, tuple(commands)
-    return build_arm_results(configuration, samples, unknown, *known)
+    return build_arm_results(configuration, samples, record.fault, header.steps, tuple(commands))
 
 
 def resimulate(run: str | Path | Result | ArmResult) -> Comparison:

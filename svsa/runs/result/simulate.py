@@ -12,7 +12,8 @@ from svsa.control.installed import OWN_LAW
 from svsa.errors import ParameterError, Violation
 from svsa.inputs.checked import check_number
 from svsa.runs.definition.change import Change, build_commands
-from svsa.runs.definition.configuration import Configuration, Design
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.definition.design import Design, Lane
 from svsa.runs.definition.experiment import build_experiment
 from svsa.runs.definition.paper import DURATION_S
 from svsa.runs.definition.shorthand import LawChoice, Settings
@@ -31,7 +32,7 @@ _OWN_STRETCH_TICKS = 1_000
 
 def simulate(
     experiment: str | Configuration = "4a",
-    law: LawChoice | Controller | type[object] | None = None,
+    law: LawChoice | Lane | Controller | type[object] | None = None,
     *,
     duration_s: float = DURATION_S,
     steps: int = 1,
@@ -44,8 +45,9 @@ def simulate(
 
     Args:
         experiment: A figure of the paper ("4a", "4b", "5") or a `Configuration`.
-        law: Name of an installed law ("ndobc", "fl", …); a function (time in s, `Reference`, x̂ as
-            `State`, ŵ as `Disturbance`) -> (u1, u2) in N·m, with optional arguments `measured` and
+        law: Name of an installed law ("ndobc", "fl", …); a `Lane`, which is a law with its
+            parameters; a function (time in s, `Reference`, x̂ as `State`, ŵ as `Disturbance`) ->
+            (u1, u2) in N·m, with optional arguments `measured` and
             `applied`; or a class of objects that are called in this way, one object per run. An
             object with a method `reset` is reset at the start of each run.
         duration_s: Duration of the run, s.

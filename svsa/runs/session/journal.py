@@ -7,7 +7,8 @@ from collections.abc import Callable
 from svsa.actuators.faults import label_fault
 from svsa.errors import Fault, StateError
 from svsa.runs.definition.command import ApplyLoad, Command, RemoveLoad, Stop
-from svsa.runs.definition.configuration import MAX_LANES, Configuration
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.definition.design import MAX_LANES
 from svsa.runs.execution.run import Run
 from svsa.runs.metrics.window_metrics import WindowMetrics
 from svsa.runs.records.header import BranchPoint

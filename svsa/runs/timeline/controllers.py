@@ -7,17 +7,18 @@ from typing import NamedTuple
 from svsa.control.installed import get_law, get_title, is_usable
 from svsa.control.observers.disturbance import ObserverBandwidth
 from svsa.control.parameters import LawParameters, UnreadParameters
-from svsa.runs.definition.configuration import Configuration, Lane
+from svsa.runs.definition.configuration import MAX_JOINTS, Configuration
+from svsa.runs.definition.design import Lane
 
 BENCH_LANES = ("Bench", "Twin")
-JOINTS = ("Joint 1", "Joint 2")
+JOINTS = tuple(f"Joint {number}" for number in range(1, MAX_JOINTS + 1))
 
 
 class Controller(NamedTuple):
     """The identity and the name of a curve.
 
     Attributes:
-        place: "Bench" or "Twin" on a bench, "Joint 1" or "Joint 2" of an arm, otherwise "".
+        place: "Bench" or "Twin" on a bench, "Joint 1", "Joint 2" … of an arm, otherwise "".
         law: Name of the law.
         parameters: Parameters of the law.
         observer: Observer; None if the law does not use it.
@@ -40,7 +41,7 @@ def list_controllers(
     if is_bench:
         places = [*BENCH_LANES, *places]
     elif len(joints) > 1:
-        places = [*JOINTS] * len(lanes)
+        places = [*JOINTS[: len(joints)]] * len(lanes)
     alone = [
         _build(joints[number % len(joints)], lane, places[number])
         for number, lane in enumerate(lanes)

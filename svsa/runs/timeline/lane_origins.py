@@ -3,7 +3,8 @@
 from collections.abc import Sequence
 from typing import Any
 
-from svsa.runs.definition.configuration import Configuration, Lane
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.definition.design import Lane
 
 
 def find_lane_origins(before: Configuration, after: Configuration) -> list[int | None]:

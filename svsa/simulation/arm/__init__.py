@@ -1,1 +1,1 @@
-"""The compiled loop of an arm: two joints with a controller each on a coupled plant."""
+"""The compiled loop of an arm: a controller for each joint on a coupled plant."""

@@ -9,8 +9,8 @@ import math
 
 from svsa.actuators.arm.dynamics import (
     Arm,
-    Joints,
     Point,
+    Turn,
     compute_arm_acceleration,
     compute_tip_torque,
     compute_tip_velocity,
@@ -18,26 +18,64 @@ from svsa.actuators.arm.dynamics import (
 )
 from svsa.errors import ParameterError, Violation
 from svsa.numerics.compilation import compiled
+from svsa.numerics.fields import full_like, replace_item
 from svsa.simulation.plant.loads.tip import Wall
 
 _STABLE = 2.6
 _TESTED = 180
 """Number of intervals of q2 between 0 and π."""
+_TESTED_BEYOND = 24
+"""Number of intervals of each further angle in a turn."""
+
+
+@compiled
+def compute_mobility(arm: Arm, t: Turn) -> tuple[float, float, float]:
+    """J M⁻¹ Jᵀ of the tip without gravity, 1/kg: its entries xx, xy, yy. t: `Turn` of q."""
+    still = full_like(arm.lengths, 0.0)
+    free = Arm(arm.inertia, still, arm.lengths, 0.0)
+    along_x = compute_tip_torque(free, t, Point(1.0, 0.0))
+    along_y = compute_tip_torque(free, t, Point(0.0, 1.0))
+    x = compute_tip_velocity(free, t, compute_arm_acceleration(free, t, still, along_x))
+    y = compute_tip_velocity(free, t, compute_arm_acceleration(free, t, still, along_y))
+    return x.x, x.y, y.y
+
+
+@compiled
+def compute_effective_mass(arm: Arm, q: tuple[float, ...], angle_rad: float) -> float:
+    """Compute the mass with which the tip moves in a direction at the start of a contact, kg.
+
+    m = 1/(nᵀ J M⁻¹ Jᵀ n): O. Khatib, "Inertial properties in robotic manipulation: an object-level
+    framework", Int. J. Robot. Res. 14(1), 1995. M is that of the links alone: the springs decouple
+    the motors in the first milliseconds.
+
+    Args:
+        arm: The arm.
+        q: Angles of its joints, rad.
+        angle_rad: Direction of n from horizontal, counterclockwise, rad.
+
+    Returns:
+        The mass, kg.
+    """
+    xx, xy, yy = compute_mobility(arm, turn(q))
+    x, y = math.cos(angle_rad), math.sin(angle_rad)
+    return 1.0 / (x * x * xx + 2.0 * x * y * xy + y * y * yy)
 
 
 @compiled
 def compute_least_tip_mass(arm: Arm) -> float:
     """The smallest mass that a force at the tip accelerates, kg: 1 / max n · J M⁻¹ Jᵀ n."""
-    free = Arm(arm.inertia1, arm.inertia2, arm.coupling, 0.0, 0.0, arm.length1, arm.length2, 0.0)
-    still, most = Joints(0.0, 0.0), 0.0
-    for i in range(_TESTED + 1):
-        t = turn(Joints(0.0, math.pi * i / _TESTED))
-        along_x = compute_tip_torque(free, t, Point(1.0, 0.0))
-        along_y = compute_tip_torque(free, t, Point(0.0, 1.0))
-        x = compute_tip_velocity(free, t, compute_arm_acceleration(free, t, still, along_x))
-        y = compute_tip_velocity(free, t, compute_arm_acceleration(free, t, still, along_y))
-        radius = math.sqrt((0.5 * (x.x - y.y)) ** 2 + x.y * x.y)
-        most = max(most, 0.5 * (x.x + y.y) + radius)
+    still, n, most = full_like(arm.lengths, 0.0), len(arm.lengths), 0.0
+    positions = 1 if n == 1 else (_TESTED + 1) * _TESTED_BEYOND ** (n - 2)
+    for position in range(positions):
+        q, rest = still, position // (_TESTED + 1)
+        if n > 1:
+            q = replace_item(q, 1, math.pi * (position % (_TESTED + 1)) / _TESTED)
+        for j in range(2, n):
+            q = replace_item(q, j, 2.0 * math.pi * (rest % _TESTED_BEYOND) / _TESTED_BEYOND)
+            rest //= _TESTED_BEYOND
+        xx, xy, yy = compute_mobility(arm, turn(q))
+        radius = math.sqrt((0.5 * (xx - yy)) ** 2 + xy * xy)
+        most = max(most, 0.5 * (xx + yy) + radius)
     return 1.0 / most
 
 

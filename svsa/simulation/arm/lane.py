@@ -1,6 +1,6 @@
 """Inputs of the loop of an arm, and its state from tick to tick.
 
-A pair is one value for each joint, joint 1 first.
+A tuple has one value for each joint, joint 1 first.
 """
 
 from typing import NamedTuple, TypeAlias
@@ -14,7 +14,8 @@ from svsa.control.arm_payload import Adaptation, Payload
 from svsa.control.call import BoundLaw
 from svsa.simulation.loop.lane import Blocks, Inputs, LaneState
 
-States: TypeAlias = tuple[State, State]
+States: TypeAlias = tuple[State, ...]
+Laws: TypeAlias = tuple[BoundLaw, ...]
 
 
 class ArmBlocks(NamedTuple):
@@ -23,7 +24,7 @@ class ArmBlocks(NamedTuple):
     elbow: sign of q2 where the references are those of the tip, x and y (m) in place of those of
     joint 1 and joint 2; else 0. adaptation: of the payload; `NO_ADAPTATION` where there is none.
 
-    joint1, joint2: the `Blocks` of each joint, whose link inertia the plant does not use.
+    joints: the `Blocks` of each joint, whose link inertia the plant does not use.
     """
 
     arm: Arm
@@ -31,28 +32,21 @@ class ArmBlocks(NamedTuple):
     feeds: bool
     elbow: float
     adaptation: Adaptation
-    joint1: Blocks
-    joint2: Blocks
+    joints: tuple[Blocks, ...]
 
 
 class ArmInputs(NamedTuple):
-    """Inputs of an arm. joint1, joint2: references and torques of each joint. tip: the table of
+    """Inputs of an arm. joints: references and torques of each joint. tip: the table of
     `tip_loads`.
     """
 
-    joint1: Inputs
-    joint2: Inputs
+    joints: tuple[Inputs, ...]
     tip: np.ndarray
 
 
 class ArmState(NamedTuple):
     """What an arm carries: the lanes of its joints, feedforward of the next tick, payload."""
 
-    joint1: LaneState
-    joint2: LaneState
-    known1: Known
-    known2: Known
+    joints: tuple[LaneState, ...]
+    known: tuple[Known, ...]
     payload: Payload
-
-
-Laws: TypeAlias = tuple[BoundLaw, BoundLaw]

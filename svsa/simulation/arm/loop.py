@@ -5,21 +5,23 @@ delay, drives, sensors and observer are the ones of a single joint. Only the pla
 """
 
 import math
+from operator import getitem
 
 import numpy as np
 
 from svsa.actuators.arm.dynamics import add_tip_mass
 from svsa.actuators.arm.motion import Motion, compute_joint_motions
 from svsa.actuators.domain import INSIDE, NOT_FINITE, check_domain
-from svsa.actuators.dynamics import ExternalLoad, InternalTorque, compute_internal_torque
+from svsa.actuators.dynamics import InternalTorque, compute_internal_torque
 from svsa.actuators.elasticity import replace_link_inertia
-from svsa.actuators.signals import Disturbance, Reference, State, Torque
+from svsa.actuators.signals import CHANNEL_INDEX, Disturbance, Reference, State, Torque
 from svsa.control.arm_feedforward import Known, compute_known, read_motion, shift_reference
 from svsa.control.arm_payload import update_payload
 from svsa.control.call import BoundLaw, Call, build_call, compute_law
 from svsa.control.limits import limit_motors
-from svsa.numerics.borrowed import borrow
+from svsa.numerics.borrowed import borrow, keep
 from svsa.numerics.compilation import compiled
+from svsa.numerics.fields import each, full_like, replace_item, take
 from svsa.simulation.arm.lane import ArmBlocks, ArmInputs, ArmState, Laws
 from svsa.simulation.arm.plant import compute_arm_rate, integrate_arm
 from svsa.simulation.arm.tip_loads import compute_tip_action
@@ -37,19 +39,29 @@ from svsa.simulation.loop.publish import publish
 from svsa.simulation.plant.effects.current_lag import compute_lagged_torque
 from svsa.simulation.plant.load_table import compute_load
 
+_PAYLOAD = CHANNEL_INDEX["payload_estimate_kg"]
+
 
 @compiled
-def plan(blocks: ArmBlocks, inputs: ArmInputs, tick: int) -> tuple[Known, Known]:
-    """Read both references at `tick`, with the feedforward if there is one."""
-    time = tick * blocks.joint1.period
-    r1, r2 = read_reference(inputs.joint1, time), read_reference(inputs.joint2, time)
+def plan(blocks: ArmBlocks, inputs: ArmInputs, tick: int) -> tuple[Known, ...]:
+    """Read all references at `tick`, with the feedforward if there is one."""
+    references = each(read_reference, (inputs.joints, tick * blocks.joints[0].period))
     if blocks.elbow != 0.0:
-        x, y = read_motion(r1), read_motion(r2)
+        x, y = read_motion(references[0]), read_motion(references[-1])
         q1, q2 = compute_joint_motions(blocks.arm, blocks.elbow, x, y)
-        r1, r2 = replace_motion(r1, q1), replace_motion(r2, q2)
+        first, last = replace_motion(references[0], q1), replace_motion(references[-1], q2)
+        references = replace_item(references, 0, first)
+        references = replace_item(references, len(references) - 1, last)
     if blocks.feeds:
-        return compute_known(blocks.model, blocks.joint1.nominal.M, blocks.joint2.nominal.M, r1, r2)
-    return Known(r1, 0.0, 0.0, 0.0), Known(r2, 0.0, 0.0, 0.0)
+        inertias = take(take(blocks.joints, "nominal"), "M")
+        return compute_known(blocks.model, inertias, references)
+    return each(plan_alone, (references,))
+
+
+@compiled
+def plan_alone(reference: Reference) -> Known:
+    """The reference of a joint without a feedforward."""
+    return Known(reference, 0.0, 0.0, 0.0)
 
 
 @compiled
@@ -77,12 +89,18 @@ def decide_joint(
 @compiled
 def act_on_joint(
     blocks: Blocks, inputs: Inputs, lane: LaneState, torque: Torque, tick: int
-) -> tuple[tuple[float, ...], Torque, Torque, ExternalLoad]:
-    """Delay, drive and loads of one joint: queue, delayed and actual torque (N·m), and load."""
+) -> Action:
+    """Delay, drive and loads of one joint; the coupled plant adds the rate, see `replace_rate`."""
     limited, delayed = delay(blocks.effects, lane.limited, torque)
     load = compute_load(inputs.loads, tick, blocks.period, tick * blocks.period)
     actual = compute_lagged_torque(lane.actual, delayed, blocks.effects.current_lag, 0.0)
-    return limited, delayed, actual, load
+    return Action(limited, delayed, actual, load, lane.x)
+
+
+@compiled
+def replace_rate(action: Action, rate: State) -> Action:
+    """The action with ẋ of the coupled plant."""
+    return Action(action.limited, action.delayed, action.actual, action.load, rate)
 
 
 @compiled
@@ -114,6 +132,12 @@ def shift_estimate(lane: LaneState, w: float) -> LaneState:
 
 
 @compiled
+def shift_inertia(lane: LaneState, before: Blocks, after: Blocks, known: Known) -> LaneState:
+    """The lane after a change of M of the nominal model: w2 changes by ΔM q̈, not by that of w_d."""
+    return shift_estimate(lane, (after.nominal.M - before.nominal.M) * known.reference.ddq)
+
+
+@compiled
 def adapt_joint(blocks: Blocks, inertia: float) -> Blocks:
     """The blocks of a joint with `inertia` (kg·m²) added to M of the nominal model."""
     b = blocks
@@ -128,19 +152,33 @@ def adapt_joint(blocks: Blocks, inertia: float) -> Blocks:
 def adapt_blocks(blocks: ArmBlocks, mass: float) -> ArmBlocks:
     """The blocks of an arm whose models have a further mass at the tip, kg."""
     b, model = blocks, add_tip_mass(blocks.model, mass)
-    inertia2 = mass * model.length2 * model.length2
-    inertia1 = mass * model.length1 * model.length1 + inertia2
-    joint1, joint2 = adapt_joint(b.joint1, inertia1), adapt_joint(b.joint2, inertia2)
-    return ArmBlocks(b.arm, model, b.feeds, b.elbow, b.adaptation, joint1, joint2)
+    inertias, inertia = model.lengths, 0.0
+    for j in range(len(inertias) - 1, -1, -1):
+        inertia = mass * model.lengths[j] * model.lengths[j] + inertia
+        inertias = replace_item(inertias, j, inertia)
+    joints = each(adapt_joint, (b.joints, inertias))
+    return ArmBlocks(b.arm, model, b.feeds, b.elbow, b.adaptation, joints)
 
 
 @compiled
-def adapt(blocks: ArmBlocks, mass: float, laws: Laws) -> ArmBlocks:
-    """`adapt_blocks`; also M, the first number of the packed nominal model of each law."""
-    adapted = adapt_blocks(blocks, mass)
-    laws[0].nominal[0] = adapted.joint1.nominal.M
-    laws[1].nominal[0] = adapted.joint2.nominal.M
-    return adapted
+def adapt_law(law: BoundLaw, blocks: Blocks) -> None:
+    """Write M of the nominal model, the first number of the packed one of the law."""
+    law.nominal[0] = blocks.nominal.M
+
+
+@compiled
+def check_torque(torque: Torque) -> int:
+    """`INSIDE` for finite torques."""
+    return INSIDE if abs(torque.u1 + torque.u2) < math.inf else NOT_FINITE
+
+
+@compiled
+def are_inside(codes: tuple[int, ...]) -> bool:
+    """Whether no joint has a reason to end the run."""
+    inside = True
+    for j in range(len(codes)):
+        inside = inside and codes[j] == INSIDE
+    return inside
 
 
 @compiled
@@ -149,101 +187,100 @@ def run_arm_tick(
     laws: Laws,
     inputs: ArmInputs,
     arm: ArmState,
-    F1: InternalTorque,
-    F2: InternalTorque,
+    F: tuple[InternalTorque, ...],
     tick: int,
-    row1: np.ndarray,
-    row2: np.ndarray,
-) -> tuple[ArmState, InternalTorque, InternalTorque, int, int]:
-    """One tick of both joints: reference, controllers, write, plant, read, observers, publish.
+    rows: tuple[np.ndarray, ...],
+) -> tuple[ArmState, tuple[InternalTorque, ...], tuple[int, ...]]:
+    """One tick of all joints: reference, controllers, write, plant, read, observers, publish.
 
-    F1, F2: F_n(x̂) of each joint. row1, row2: samples, (channels,), written. Returns arm, F1, F2,
-    and the code of each joint: other than `INSIDE` says why the run ends at this tick.
+    F: F_n(x̂) of each joint. rows: sample of each joint, (channels,), written. Returns arm, F, and
+    the code of each joint: other than `INSIDE` says why the run ends at this tick.
     """
-    bare, adaptation = blocks.model, blocks.adaptation
+    bare, adaptation, lanes, known = blocks, blocks.adaptation, arm.joints, arm.known
     if adaptation.share > 0.0:
-        blocks = adapt(blocks, arm.payload.mass, laws)
-    joint1, joint2, lane1, lane2 = blocks.joint1, blocks.joint2, arm.joint1, arm.joint2
-    code1 = check_domain(joint1.domain, joint1.plant, lane1.x)
-    code2 = check_domain(joint2.domain, joint2.plant, lane2.x)
-    if code1 != INSIDE or code2 != INSIDE:
-        return arm, F1, F2, code1, code2
-    known1, known2 = arm.known1, arm.known2
-    call1, call2 = build_call(laws[0], lane1.memory), build_call(laws[1], lane2.memory)
-    torque1 = decide_joint(joint1, blocks.feeds, call1, lane1, known1, tick)
-    torque2 = decide_joint(joint2, blocks.feeds, call2, lane2, known2, tick)
-    code1 = INSIDE if abs(torque1.u1 + torque1.u2) < math.inf else NOT_FINITE
-    code2 = INSIDE if abs(torque2.u1 + torque2.u2) < math.inf else NOT_FINITE
-    if code1 != INSIDE or code2 != INSIDE:
-        return arm, F1, F2, code1, code2
-    limited1, delayed1, actual1, load1 = act_on_joint(joint1, inputs.joint1, lane1, torque1, tick)
-    limited2, delayed2, actual2, load2 = act_on_joint(joint2, inputs.joint2, lane2, torque2, tick)
-    x, loads, tip = (lane1.x, lane2.x), (load1, load2), compute_tip_action(inputs.tip, tick)
+        blocks = adapt_blocks(bare, arm.payload.mass)
+        each(adapt_law, (laws, blocks.joints))
+    joints = blocks.joints
+    codes = each(check_domain, (take(joints, "domain"), take(joints, "plant"), take(lanes, "x")))
+    if not are_inside(codes):
+        return arm, F, codes
+    calls = each(build_call, (laws, take(lanes, "memory")))
+    torques = each(decide_joint, (joints, blocks.feeds, calls, lanes, known, tick))
+    codes = each(check_torque, (torques,))
+    if not are_inside(codes):
+        return arm, F, codes
+    actions = each(act_on_joint, (joints, inputs.joints, lanes, torques, tick))
+    x, tip = take(lanes, "x"), compute_tip_action(inputs.tip, tick)
+    actual, loads = take(actions, "actual"), take(actions, "load")
     loaded = add_tip_mass(blocks.arm, tip.mass)
-    rate = compute_arm_rate(
-        blocks, loaded, inputs.tip, tick, x, (actual1, actual2), loads, tip.force
-    )
-    action1 = Action(limited1, delayed1, actual1, load1, rate[0])
-    action2 = Action(limited2, delayed2, actual2, load2, rate[1])
-    publish(True, joint1, known1.reference, lane1, F1, call1, action1, tick, row1)
-    publish(True, joint2, known2.reference, lane2, F2, call2, action2, tick, row2)
-    start, delayed = (lane1.actual, lane2.actual), (delayed1, delayed2)
-    x1, x2 = integrate_arm(blocks, inputs, x, rate, start, delayed, loads, tip, tick)
-    next1, next2 = plan(blocks, inputs, tick + 1)
-    old, before1, before2, payload = (lane1.known, lane2.known), F1, F2, arm.payload
-    lane1, F1 = follow_joint(joint1, lane1, F1, action1, x1, known1, next1, tick)
-    lane2, F2 = follow_joint(joint2, lane2, F2, action2, x2, known2, next2, tick)
+    rate = compute_arm_rate(blocks, loaded, inputs.tip, tick, x, actual, loads, tip.force)
+    actions = each(replace_rate, (actions, rate))
+    references = take(known, "reference")
+    each(publish, (True, joints, references, lanes, F, calls, actions, tick, rows))
+    start, delayed = take(lanes, "actual"), take(actions, "delayed")
+    x = integrate_arm(blocks, inputs, x, rate, start, delayed, loads, tip, tick)
+    planned = plan(blocks, inputs, tick + 1)
+    old, before, payload = take(lanes, "known"), F, arm.payload
+    followed = each(follow_joint, (joints, lanes, F, actions, x, known, planned, tick))
+    lanes, F = take(followed, 0), take(followed, 1)
     if adaptation.share > 0.0:
-        new, period = (lane1.known, lane2.known), joint1.period
-        payload = update_payload(
-            adaptation, bare, payload, old, new, (before1, F1), (before2, F2), period
-        )
-    return ArmState(lane1, lane2, next1, next2, payload), F1, F2, INSIDE, INSIDE
+        new, period = take(lanes, "known"), joints[0].period
+        payload = update_payload(adaptation, bare.model, payload, old, new, before, F, period)
+        if adaptation.shifts:
+            adapted = adapt_blocks(bare, payload.mass)
+            lanes = each(shift_inertia, (lanes, joints, adapted.joints, planned))
+            planned = plan(adapted, inputs, tick + 1)
+    return ArmState(lanes, planned, payload), F, codes
 
 
 @compiled
-def copy_law(law: BoundLaw, nominal: np.ndarray) -> BoundLaw:
-    """The same `BoundLaw` with another packed nominal model, without owning its arrays."""
-    one = borrow_law(law)
-    return BoundLaw(one.function, nominal, one.constants, one.is_own, one.is_measuring)
+def write_payload(row: np.ndarray, mass: float) -> None:
+    """Write m̂, kg, into the sample of a joint."""
+    row[_PAYLOAD] = mass
+
+
+@compiled
+def copy_array(array: np.ndarray) -> np.ndarray:
+    """A copy, which owns its memory."""
+    return array.copy()
+
+
+@compiled
+def borrow_copied_law(law: BoundLaw, nominal: np.ndarray) -> BoundLaw:
+    """The law with another packed nominal model, without owning its arrays."""
+    borrowed = borrow_law(law)
+    return BoundLaw(
+        borrowed.function, borrow(nominal), borrowed.constants, law.is_own, law.is_measuring
+    )
 
 
 @compiled
 def advance_arm(
     blocks: ArmBlocks,
-    law1: BoundLaw,
-    law2: BoundLaw,
+    laws: Laws,
     inputs: ArmInputs,
     arm: ArmState,
     first: int,
-    samples1: np.ndarray,
-    samples2: np.ndarray,
-    masses: np.ndarray,
-) -> tuple[ArmState, int, int, int]:
-    """Run many ticks without the GIL. samples1, samples2: (ticks, channels) of a joint, written.
+    samples: tuple[np.ndarray, ...],
+) -> tuple[ArmState, int, tuple[int, ...]]:
+    """Run many ticks without the GIL. samples: (ticks, channels) of each joint, written.
 
-    masses: (ticks,), m̂ at the beginning of each tick, kg, written. arm: at the tick `first`, which
-    stays as it is. Returns (arm, ticks done, code of joint 1, code of joint 2), as
-    `svsa.simulation.loop.loop.advance`.
+    arm: at the tick `first`, which stays as it is. Returns (arm, ticks done, code of each joint),
+    as `svsa.simulation.loop.loop.advance`.
     """
-    memory1, memory2 = arm.joint1.memory.copy(), arm.joint2.memory.copy()
-    rows1, rows2 = borrow(samples1), borrow(samples2)
-    nominal1, nominal2 = law1.nominal.copy(), law2.nominal.copy()
-    laws = copy_law(law1, borrow(nominal1)), copy_law(law2, borrow(nominal2))
-    given = ArmInputs(
-        borrow_inputs(inputs.joint1), borrow_inputs(inputs.joint2), borrow(inputs.tip)
-    )
-    lane1 = remember(arm.joint1, borrow(memory1))
-    lane2 = remember(arm.joint2, borrow(memory2))
-    F1 = compute_internal_torque(blocks.joint1.nominal, lane1.known)
-    F2 = compute_internal_torque(blocks.joint2.nominal, lane2.known)
-    now = ArmState(lane1, lane2, arm.known1, arm.known2, arm.payload)
-    done, code1, code2 = 0, INSIDE, INSIDE
-    while done < rows1.shape[0] and code1 == INSIDE and code2 == INSIDE:
-        masses[done] = now.payload.mass
-        now, F1, F2, code1, code2 = run_arm_tick(
-            blocks, laws, given, now, F1, F2, first + done, rows1[done], rows2[done]
-        )
-        done += code1 == INSIDE and code2 == INSIDE
-    kept1, kept2 = remember(now.joint1, memory1), remember(now.joint2, memory2)
-    return ArmState(kept1, kept2, now.known1, now.known2, now.payload), done, code1, code2
+    memories = each(copy_array, (take(arm.joints, "memory"),))
+    nominals = each(copy_array, (take(laws, "nominal"),))
+    own = each(borrow_copied_law, (laws, nominals))
+    borrowed = ArmInputs(each(borrow_inputs, (inputs.joints,)), borrow(inputs.tip))
+    lanes = each(remember, (arm.joints, each(borrow, (memories,))))
+    F = each(compute_internal_torque, (take(blocks.joints, "nominal"), take(lanes, "known")))
+    now = ArmState(lanes, arm.known, arm.payload)
+    rows, done, codes = each(borrow, (samples,)), 0, full_like(F, int(INSIDE))
+    while done < samples[0].shape[0] and are_inside(codes):
+        row, mass = each(getitem, (rows, done)), now.payload.mass
+        now, F, codes = run_arm_tick(blocks, own, borrowed, now, F, first + done, row)
+        if blocks.adaptation.share > 0.0:
+            each(write_payload, (row, mass))
+        done += are_inside(codes)
+    keep(nominals)
+    return ArmState(each(remember, (now.joints, memories)), now.known, now.payload), done, codes

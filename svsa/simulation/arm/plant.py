@@ -9,7 +9,6 @@ import numpy as np
 
 from svsa.actuators.arm.dynamics import (
     Arm,
-    Joints,
     Point,
     add_tip_mass,
     compute_arm_acceleration,
@@ -29,6 +28,7 @@ from svsa.actuators.dynamics import (
 )
 from svsa.actuators.signals import State, Torque
 from svsa.numerics.compilation import compiled
+from svsa.numerics.fields import each, take
 from svsa.simulation.arm.lane import ArmBlocks, ArmInputs, States
 from svsa.simulation.arm.tip_loads import TipAction, compute_wall_force
 from svsa.simulation.loop.lane import Blocks
@@ -36,14 +36,14 @@ from svsa.simulation.plant.effects.current_lag import compute_lagged_torque
 from svsa.simulation.plant.integration import follow_load
 from svsa.simulation.plant.resistance import add_resistance
 
-_Loads = tuple[ExternalLoad, ExternalLoad]
-_Torques = tuple[Torque, Torque]
+_Loads = tuple[ExternalLoad, ...]
+_Torques = tuple[Torque, ...]
 
 
 @compiled
-def compute_link_torque(F: InternalTorque, load: ExternalLoad) -> float:
-    """−D q̇ − τ_e + τ_ext of one joint, N·m."""
-    return F.link + load.w2
+def compute_joint_torque(F: InternalTorque, load: ExternalLoad, by_tip: float) -> float:
+    """−D q̇ − τ_e + τ_ext of one joint and the part of a force at the tip, N·m."""
+    return F.link + load.w2 + by_tip
 
 
 @compiled
@@ -66,56 +66,21 @@ def compute_arm_rate(
     loads: _Loads,
     force: Point,
 ) -> States:
-    """ẋ of both joints. arm: with the mass at its tip. u, loads: pairs. force: at the tip, N.
+    """ẋ of all joints. arm: with the mass at its tip. force: at the tip, N.
 
     table: of the loads at the tip, whose walls act on the tip at x.
     """
-    x1, x2 = x
-    joint1, joint2 = blocks.joint1, blocks.joint2
-    load1 = add_resistance(joint1.effects, x1, loads[0])
-    load2 = add_resistance(joint2.effects, x2, loads[1])
-    F1 = compute_internal_torque(joint1.plant, x1)
-    F2 = compute_internal_torque(joint2.plant, x2)
-    angles, dq = turn(Joints(x1.q, x2.q)), Joints(x1.dq, x2.dq)
+    resisted = each(add_resistance, (take(blocks.joints, "effects"), x, loads))
+    F = each(compute_internal_torque, (take(blocks.joints, "plant"), x))
+    angles, dq = turn(take(x, "q")), take(x, "dq")
     if table.shape[0] > 0:
         tip = compute_tip_position(arm, angles)
         wall = compute_wall_force(table, tick, tip, compute_tip_velocity(arm, angles, dq))
         force = Point(force.x + wall.x, force.y + wall.y)
     by_tip = compute_tip_torque(arm, angles, force)
-    torque = Joints(
-        compute_link_torque(F1, load1) + by_tip.joint1,
-        compute_link_torque(F2, load2) + by_tip.joint2,
-    )
+    torque = each(compute_joint_torque, (F, resisted, by_tip))
     ddq = compute_arm_acceleration(arm, angles, dq, torque)
-    return (
-        compute_joint_rate(joint1, x1, F1, u[0], load1, ddq.joint1),
-        compute_joint_rate(joint2, x2, F2, u[1], load2, ddq.joint2),
-    )
-
-
-@compiled
-def shift_both(x: States, rate: States, step: float) -> States:
-    """x + step · ẋ of both joints. step: s."""
-    return shift(x[0], rate[0], step), shift(x[1], rate[1], step)
-
-
-@compiled
-def lag_both(blocks: ArmBlocks, start: _Torques, delayed: _Torques, since: float) -> _Torques:
-    """What the motors make `since` seconds after the beginning of the tick, N·m."""
-    lag1, lag2 = blocks.joint1.effects.current_lag, blocks.joint2.effects.current_lag
-    return (
-        compute_lagged_torque(start[0], delayed[0], lag1, since),
-        compute_lagged_torque(start[1], delayed[1], lag2, since),
-    )
-
-
-@compiled
-def follow_both(inputs: ArmInputs, before: _Loads, tick: int, period: float, time: float) -> _Loads:
-    """The loads on both joints at `time` (s) in the period of `tick`."""
-    return (
-        follow_load(inputs.joint1.loads, before[0], tick, period, time),
-        follow_load(inputs.joint2.loads, before[1], tick, period, time),
-    )
+    return each(compute_joint_rate, (blocks.joints, x, F, u, resisted, ddq))
 
 
 @compiled
@@ -135,29 +100,30 @@ def integrate_arm(
     rate: ẋ at its beginning. start: the motors' torques then, delayed: after the delay, N·m. loads:
     on the joints then. tip: masses and forces at the tip.
     """
-    period, steps, table = blocks.joint1.period, blocks.joint1.steps, inputs.tip
+    period, steps, table = blocks.joints[0].period, blocks.joints[0].steps, inputs.tip
+    lags, tables = take(take(blocks.joints, "effects"), "current_lag"), take(inputs.joints, "loads")
     arm, force = add_tip_mass(blocks.arm, tip.mass), tip.force
     h, early = period / steps, loads
     for i in range(steps):
         since = i * h
         time = tick * period + since
-        u0 = lag_both(blocks, start, delayed, since)
-        u1 = lag_both(blocks, start, delayed, since + 0.5 * h)
-        u2 = lag_both(blocks, start, delayed, since + h)
-        middle = follow_both(inputs, early, tick, period, time + 0.5 * h)
-        late = follow_both(inputs, early, tick, period, time + h)
+        u0 = each(compute_lagged_torque, (start, delayed, lags, since))
+        u1 = each(compute_lagged_torque, (start, delayed, lags, since + 0.5 * h))
+        u2 = each(compute_lagged_torque, (start, delayed, lags, since + h))
+        middle = each(follow_load, (tables, early, tick, period, time + 0.5 * h))
+        late = each(follow_load, (tables, early, tick, period, time + h))
         k1 = rate
         if i > 0:
             k1 = compute_arm_rate(blocks, arm, table, tick, x, u0, early, force)
-        half = shift_both(x, k1, 0.5 * h)
+        half = each(shift, (x, k1, 0.5 * h))
         k2 = compute_arm_rate(blocks, arm, table, tick, half, u1, middle, force)
-        half = shift_both(x, k2, 0.5 * h)
+        half = each(shift, (x, k2, 0.5 * h))
         k3 = compute_arm_rate(blocks, arm, table, tick, half, u1, middle, force)
-        end = shift_both(x, k3, h)
+        end = each(shift, (x, k3, h))
         k4 = compute_arm_rate(blocks, arm, table, tick, end, u2, late, force)
-        x = shift_both(x, k1, h / 6.0)
-        x = shift_both(x, k2, h / 3.0)
-        x = shift_both(x, k3, h / 3.0)
-        x = shift_both(x, k4, h / 6.0)
+        x = each(shift, (x, k1, h / 6.0))
+        x = each(shift, (x, k2, h / 3.0))
+        x = each(shift, (x, k3, h / 3.0))
+        x = each(shift, (x, k4, h / 6.0))
         early = late
     return x

@@ -27,7 +27,7 @@ class Path(NamedTuple):
 
 
 class AnyTipReference(Checked):
-    """A reference of the tip, which replaces the position references of both joints."""
+    """A reference of the tip of two links, which replaces the references of both joints."""
 
     elbow: Elbow = quantity("", "Sign of q2", default="positive")
 
@@ -46,14 +46,15 @@ class AnyTipReference(Checked):
         A path around the top of joint 1 is rejected as well, because q1 would jump by a turn there.
 
         Args:
-            arm: Parameters of the arm.
+            arm: Parameters of an arm of two links.
 
         Raises:
             ParameterError: If a point is out of reach, with the bounds.
         """
         (left, right), (low, high) = (shape.range for shape in self.build_path())
-        whole = arm.length1_m + arm.length2_m
-        most, least = whole * (1.0 - MARGIN), abs(arm.length1_m - arm.length2_m) + MARGIN * whole
+        l1, l2 = (link.length_m for link in arm.chain)
+        whole = l1 + l2
+        most, least = whole * (1.0 - MARGIN), abs(l1 - l2) + MARGIN * whole
         far = math.hypot(max(-left, right), max(-low, high))
         near = math.hypot(max(left, -right, 0.0), max(low, -high, 0.0))
         box = f"x from {left:.4g} to {right:.4g} m, y from {low:.4g} to {high:.4g} m"

@@ -261,5 +261,6 @@ def publish_measured(blocks: Blocks, carried: np.record, tick: int, row: np.ndar
         estimate_motor2_nm=estimate.w6,
         position_residual_rad=0.0,
         stiffness_residual_nm_per_rad=0.0,
+        payload_estimate_kg=0.0,
     )
     write_sample(row, values)

@@ -118,6 +118,7 @@ def publish(
         estimate_motor2_nm=estimate.w6,
         position_residual_rad=0.0,
         stiffness_residual_nm_per_rad=0.0,
+        payload_estimate_kg=0.0,
     )
     write_sample(row, values)
     return row

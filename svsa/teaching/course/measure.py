@@ -12,7 +12,8 @@ from svsa.errors import ParameterError, Violation
 from svsa.evaluation.studies.setting import read_setting
 from svsa.inputs.checked import Checked, Number, Whole, quantity
 from svsa.runs.definition.command import fold
-from svsa.runs.definition.configuration import MAX_LANES, Configuration
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.definition.design import MAX_LANES
 from svsa.runs.result.arm import ArmResult
 from svsa.runs.result.channels import ChannelName
 from svsa.runs.result.result import Result
@@ -134,14 +135,14 @@ class Measure(Checked):
         if self.channel is not None:
             return lanes[self.lane - 1][self.channel]
         assert self.tip_direction_rad is not None  # noqa: S101
-        return _read_tip_stiffness(lanes[self.lane - 1 : self.lane + 1], self.tip_direction_rad)
+        end = self.lane - 1 + len(lanes[0].configuration.joints)
+        return _read_tip_stiffness(lanes[self.lane - 1 : end], self.tip_direction_rad)
 
 
 def _read_tip_stiffness(joints: Sequence[Result], angle: float) -> np.ndarray:
     """nᵀ K n of the tip of an arm from its joints' samples, (ticks,), N/m."""
     samples = np.stack([joint.samples for joint in joints])
-    unknown = np.full(samples.shape[1], np.nan)
-    arm = ArmResult(joints[0].configuration, samples, unknown)
+    arm = ArmResult(joints[0].configuration, samples)
     n = np.array([math.cos(angle), math.sin(angle)])
     return np.einsum("i,tij,j->t", n, arm.tip_stiffness_n_per_m, n)
 

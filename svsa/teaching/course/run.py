@@ -24,7 +24,7 @@ def list_arm_lanes(run: ArmResult) -> Result:
         run: The arm, and as its comparison a second one.
 
     Returns:
-        Joint 1; its comparisons are joint 2, and both joints of the second arm.
+        Joint 1; its comparisons are the other joints, and all joints of the second arm.
     """
     samples = np.concatenate([arm.samples for arm in (run, *run.comparisons)])
     laws = [lane.law for lane in run.configuration.lanes]

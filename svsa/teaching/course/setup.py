@@ -13,7 +13,8 @@ from svsa.evaluation.studies.study import FIGURE, build_base
 from svsa.inputs.checked import Checked, Number, quantity
 from svsa.runs.definition.arm_experiment import build_arm_experiment
 from svsa.runs.definition.command import ApplyLoad, Command, RemoveLoad, Stop, fold
-from svsa.runs.definition.configuration import MAX_LANES, Configuration, Lane
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.definition.design import MAX_LANES, Lane
 from svsa.runs.result.result import Result
 from svsa.teaching.course.on_bench import SET_ON_BENCH, OnBench
 
@@ -137,7 +138,7 @@ def _list_compared(
     """Yield name, wanted and actual value of the fields of each joint, and of those of an arm."""
     for number, (asked, had) in enumerate(zip(expected.joints, begun.joints, strict=True), start=1):
         for field in fields:
-            name = field if number == 1 else f"{field} of joint 2"
+            name = field if number == 1 else f"{field} of joint {number}"
             yield name, getattr(asked, field), getattr(had, field)
     for field in _COMPARED_OF_ARM if expected.arm is not None else ():
         yield f"arm.{field}", getattr(expected.arm, field), getattr(begun.arm, field)
@@ -158,12 +159,14 @@ def _give_first(configuration: Configuration, commands: Sequence[Command]) -> Co
 
 
 def _remove_load(configuration: Configuration, index: int) -> Configuration:
-    """Remove a planned load; those of joint 2 of an arm follow those of joint 1."""
-    loads, arm = configuration.loads, configuration.arm
-    if arm is not None and index >= len(loads):
-        second = _remove_load(arm.joint2, index - len(loads))
-        return configuration.changed(arm=arm.changed(joint2=second))
-    return configuration.changed(loads=(*loads[:index], *loads[index + 1 :]))
+    """Remove a planned load; those of each joint of an arm follow those of the joint before."""
+    changes: list[dict[str, Any]] = []
+    for joint in configuration.joints:
+        loads = joint.loads
+        is_here = 0 <= index < len(loads)
+        changes.append({"loads": (*loads[:index], *loads[index + 1 :])} if is_here else {})
+        index -= len(loads)
+    return configuration.change_joints(changes)
 
 
 def _describe_difference(asked: Any, had: Any) -> str:

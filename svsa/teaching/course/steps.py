@@ -105,7 +105,9 @@ class Experiment(_Step, Setup):
         return self
 
     def _is_tip(self, lane: int) -> bool:
-        return self.configuration.arm is not None and lane % 2 == 1
+        return (
+            self.configuration.arm is not None and (lane - 1) % len(self.configuration.joints) == 0
+        )
 
     def _check_criteria(self, where: str, criteria: tuple[Criterion, ...]) -> None:
         names = [measure.name for measure in self.measures]

@@ -15,7 +15,7 @@ from svsa.evaluation.ranking.entry import DECLARED, get_entry_title
 from svsa.evaluation.ranking.scenarios import find_scenario
 from svsa.evaluation.ranking.single_run import build_shown_run, explain_alone
 from svsa.evaluation.scenario import Scenario
-from svsa.runs.definition.configuration import Lane
+from svsa.runs.definition.design import Lane
 from svsa.runs.result.result import Result
 from svsa.runs.result.simulate import simulate
 from svsa.teaching.leaderboard.board import Board, Entry

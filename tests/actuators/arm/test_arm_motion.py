@@ -7,11 +7,12 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
+from svsa.actuators.arm.dynamics import Link, build_arm
 from svsa.actuators.arm.motion import Motion, compute_joint_motions, compute_sine_of
-from svsa.actuators.arm.parameters import MACCEPA_ARM, RODS
+from svsa.actuators.arm.parameters import RODS
 from svsa.control.arm_feedforward import compute_torques_along
 
-ARM = RODS.changed(length1_m=0.32, length2_m=0.25).build()
+ARM = RODS.change_link(1, length_m=0.32).change_link(2, length_m=0.25).build()
 rates = st.floats(-3.0, 3.0)
 
 
@@ -19,7 +20,7 @@ def compute_tip(q1, q2):
     """Both coordinates with four derivatives, from the sines of q1 and p = q1 + q2."""
     p = Motion(*np.add(q1, q2))
     (s1, c1), (sp, cp) = compute_sine_of(q1), compute_sine_of(p)
-    l1, l2 = ARM.length1, ARM.length2
+    l1, l2 = ARM.lengths
     x = Motion(*(l1 * np.array(s1) + l2 * np.array(sp)))
     return x, Motion(*(-l1 * np.array(c1) - l2 * np.array(cp)))
 
@@ -53,14 +54,16 @@ def test_sine_and_cosine_match_their_numerical_derivatives():
 
 
 def test_feedforward_torques_match_their_numerical_derivatives():
-    arm, h = MACCEPA_ARM.build(), 1e-3
+    """Of three joints."""
+    links = (Link(0.3, 0.4, 0.1, 0.003), Link(0.25, 0.3, 0.12, 0.002), Link(0.2, 0.2, 0.1, 0.001))
+    arm, h = build_arm(links, 9.81), 1e-3
 
     def compute(t):
-        waves = [
+        waves = tuple(
             Motion(*(a * w**k * math.sin(w * t + f + k * math.pi / 2) for k in range(5)))
-            for a, w, f in ((0.6, 2.0, 0.0), (0.8, 3.0, 0.7))
-        ]
-        return np.array(compute_torques_along(arm, *waves))
+            for a, w, f in ((0.6, 2.0, 0.0), (0.8, 3.0, 0.7), (0.5, 4.0, 0.2))
+        )
+        return np.array(compute_torques_along(arm, waves))
 
     before, now, after = compute(0.4 - h), compute(0.4), compute(0.4 + h)
     assert now[:, 1] == pytest.approx((after - before)[:, 0] / (2 * h), rel=1e-4)

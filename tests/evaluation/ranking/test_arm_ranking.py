@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
+import svsa
 from svsa.cli import app
 from svsa.control.installed import get_law
 from svsa.evaluation.metrics import find_held
@@ -19,6 +20,7 @@ from svsa.evaluation.ranking.arm import (
     format_median,
     list_arm_cells,
     list_arm_controllers,
+    list_arm_headings,
     measure_arm_row,
     order_arm_rows,
 )
@@ -60,6 +62,19 @@ def test_row_is_that_of_the_tuned_parameters_on_the_test_trials():
     assert row.held == tuple(held.all(axis=1).tolist())
     errors = np.degrees(np.sqrt(summaries["position_squares"][:, 1] / 4000))
     assert row.outputs[1].value == pytest.approx(np.sort(errors)[2])
+
+
+def test_arm_of_four_joints_has_trials_and_columns_for_each():
+    protocol = SMALL.changed(arm="chain")
+    trials = build_arm_test(protocol).trials
+    assert {len(trial.sigmas) for trial in trials} == {4}
+    assert {len(trial.configuration.joints) for trial in trials} == {4}
+    headings = list_arm_headings(order_arm_rows([], protocol))
+    assert headings[-5:] == [
+        "joint 4: e [°]", *(f"joint {joint}: e_σ [%]" for joint in (1, 2, 3, 4)),
+    ]  # fmt: skip
+    with pytest.raises(svsa.ParameterError, match="arm is 'three': it must be one of rods"):
+        ArmProtocol(arm="three")
 
 
 def test_rows_that_do_not_differ_significantly_share_a_rank():

@@ -80,7 +80,8 @@ def test_study_with_chosen_metrics_stores_shows_replays_and_plots_them(data, tmp
     assert all(tuple(law["quantiles"]) == kept for law in shown["laws"])
     assert replay_row(open_study("few"), 3).differing == []
     shown = run("replay", "few", "3", "--no-keep")
-    assert all(name in shown for name in ("limit share", "peak torque2", "effort"))
+    titles = "Ticks at a torque limit", "Peak torque u2", "Control effort"
+    assert all(title in shown for title in titles)
     run("show", "few", "--pictures", str(tmp_path))
     assert (tmp_path / "few_distributions.png").exists()
 

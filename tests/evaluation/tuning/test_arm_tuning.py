@@ -38,12 +38,13 @@ def test_trials_have_their_declared_ranges_and_both_signs():
     assert np.all(forces.min(axis=0) < -0.5) and np.all(forces.max(axis=0) > 0.5)
     masses = [load.mass_kg for load in loads if load.kind == "tip_mass"]
     assert 0.05 <= min(masses) < 0.1 < max(masses) <= 0.2
-    ratios = [one.configuration.arm.links.mass2_kg / RODS.mass2_kg for one in trials]
+    rod = RODS.chain[1]
+    ratios = [trial.configuration.arm.links.chain[1].mass_kg / rod.mass_kg for trial in trials]
     assert 1.0 - LINK_ERROR <= min(ratios) < 0.9 and 1.1 < max(ratios) <= 1.0 + LINK_ERROR
     assert all(one.configuration.arm.model == RODS for one in trials)
     starts = [one.configuration.position.phase_rad for one in trials]
     assert set(starts) == {0.0, math.pi}
-    changing = [one.configuration.arm.joint2.stiffness.kind for one in trials]
+    changing = [trial.configuration.joints[1].stiffness.kind for trial in trials]
     assert {"constant", "sine"} == set(changing)
     for one in trials:
         joints = one.configuration.joints
@@ -68,9 +69,8 @@ def test_run_of_a_trial_has_its_controller_and_both_joints():
     assert not np.any(plain["code"])
     assert np.all(plain["position_squares"] != fed["position_squares"])
     c = trials[0].configuration
-    given = {"law": "fl", "gains": design.gains, "observer": design.observer}
-    setup = c.arm.changed(joint2=c.arm.joint2.changed(**given))
-    alone = svsa.simulate_arm(c.changed(arm=setup, **given), duration_s=6.0)
+    settings = {"law": "fl", "gains": design.gains, "observer": design.observer}
+    alone = svsa.simulate_arm(c.change_joints([settings, settings]), duration_s=6.0)
     peaks = [np.abs(joint.position_error_rad[2000:]).max() for joint in alone.joints]
     assert plain["position_peak"][0] == pytest.approx(peaks, rel=1e-12)
 

@@ -24,7 +24,7 @@ from svsa.hardware.realtime.warm_up import list_changes
 from svsa.hardware.session.supervised_loop import SupervisedLoop
 from svsa.numerics.compilation import compiled
 from svsa.runs.definition.command import COMMANDS, OF_ARM
-from svsa.runs.definition.configuration import Lane
+from svsa.runs.definition.design import Lane
 from svsa.runs.definition.paper import get_figure
 from svsa.runs.execution.blocks import bind_law, build_blocks
 from svsa.simulation.plant.loads import LOADS

@@ -30,6 +30,18 @@ def test_fl_with_the_estimate_has_the_errors_of_the_prototype(pole, sigma, known
     assert min(measure_deg(plain)) > 20 * max(known), "the load must matter"
 
 
+def test_shift_of_the_estimate_with_the_model_halves_the_error():
+    """Only the replay of a record of an earlier version has no shift."""
+    options = {"law": "ndobc", "feedforward": True, "tip_loads": [LOAD], **HEAVY}
+    former = svsa.PayloadAdaptation(shifts_estimate=False)
+    assert measure_deg(svsa.simulate_arm(adaptation=former, **options)) == pytest.approx(
+        [0.027, 0.061], abs=5.1e-4
+    )
+    assert measure_deg(svsa.simulate_arm(adaptation=True, **options)) == pytest.approx(
+        [0.010, 0.022], abs=5.1e-4
+    )
+
+
 def test_ndobc_carries_a_heavy_payload_only_with_the_payload_estimate():
     options = {"law": "ndobc", "feedforward": True, "tip_loads": [LOAD], **HEAVY}
     plain = svsa.simulate_arm(**options)
@@ -50,7 +62,7 @@ def test_payload_estimate_converges_to_the_mass_within_its_rate_limit():
 
 def test_links_that_are_thought_too_heavy_lower_the_estimate_and_not_the_accuracy():
     """Link masses 20 % too large in the model: the estimate makes up for it."""
-    wrong = build_rods(0.36, 0.36, 0.3, 0.3)
+    wrong = build_rods((0.36, 0.3), (0.36, 0.3))
     options = {"feedforward": True, "adaptation": True, "tip_loads": [LOAD], **HEAVY}
     result = svsa.simulate_arm(law="ndobc", model=wrong, **options)
     assert result.payload_kg[9000:] == pytest.approx(np.full(11000, 0.253), abs=0.01)
@@ -58,7 +70,7 @@ def test_links_that_are_thought_too_heavy_lower_the_estimate_and_not_the_accurac
 
 
 def test_links_that_are_thought_too_light_cost_accuracy():
-    wrong = build_rods(0.24, 0.24, 0.3, 0.3)
+    wrong = build_rods((0.24, 0.3), (0.24, 0.3))
     options = {"feedforward": True, "adaptation": True, "tip_loads": [LOAD], **HEAVY}
     result = svsa.simulate_arm(law="ndobc", model=wrong, **options)
     assert result.payload_kg[4000] == pytest.approx(0.046, abs=0.005)

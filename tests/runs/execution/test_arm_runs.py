@@ -7,17 +7,20 @@ import numpy as np
 import pytest
 
 import svsa
-from svsa.actuators.arm.dynamics import Joints, compute_mass_matrix, turn
+from svsa.actuators.arm.dynamics import compute_mass_matrix, turn
 from svsa.actuators.arm.parameters import RODS, build_rods
+from svsa.actuators.signals import CHANNELS
 from svsa.control.installed import get_law, list_law_names
-from svsa.runs.definition.arm_experiment import build_arm_experiment
+from svsa.runs.definition.arm_experiment import build_actuated_arm, build_arm_experiment
 from svsa.runs.execution.arm_run import ArmRun
 
 LOAD = svsa.TipMass(mass_kg=0.1, start_s=5.0)
 BEFORE_S, AFTER_S = (2.0, 5.0), (8.0, 20.0)
 PUSH = svsa.ConstantLoad(torque_nm=(1.0, 0.0, 0.0))
 ELLIPSE = svsa.TipEllipse(center_m=(0.1, -0.4), radii_m=(0.1, 0.05), frequency_hz=0.5)
-LIGHT = build_rods(0.2, 0.2, 0.2, 0.2)
+SOFT = {"stiffness_nm_per_rad": 100.0}
+HEAVY = RODS.change_link(1, length_m=3.0).change_link(2, mass_kg=50.0)
+LIGHT = build_rods((0.2, 0.2), (0.2, 0.2))
 """An arm that all laws but two carry with the parameters tuned for a single joint."""
 KNOWN = {
     ("fl", False): (1.49, 1.98, 1.95, 2.97),
@@ -56,7 +59,7 @@ def test_feedforward_with_exact_models_leaves_no_error():
     exact = {name: getattr(plant, name) for name in names}
     result = svsa.simulate_arm(law="fl", feedforward=True, nominal=exact, duration_s=6.0)
     assert max(measure_deg(result, (2.0, 6.0))) < 5e-4
-    wrong = RODS.changed(mass2_kg=0.36)
+    wrong = RODS.change_link(2, mass_kg=0.36)
     worse = svsa.simulate_arm(
         law="fl", feedforward=True, nominal=exact, model=wrong, duration_s=6.0
     )
@@ -94,13 +97,13 @@ def test_joint_2_of_an_arm_that_joint_1_cannot_move_is_a_single_joint():
     About q = 0 its inertia is M22 − M12²/M11, because link 1 moves a little in the opposite
     direction.
     """
-    arm = RODS.changed(inertia1_kg_m2=9.9, gravity_m_per_s2=0.0)
-    M = compute_mass_matrix(arm.build(), turn(Joints(0.0, 0.0)))
+    arm = RODS.change_link(1, inertia_kg_m2=9.9).changed(gravity_m_per_s2=0.0)
+    M = compute_mass_matrix(arm.build(), turn((0.0, 0.0)))
     pulse = svsa.PulseLoad(torque_nm=(1.0, 0.0, 0.0), start_s=0.5, duration_s=0.4)
     settings = {"position": 0.0, "stiffness": 40.0, "duration_s": 2.0}
     of_joint = {"loads": pulse, "effects": "rig", "nominal": {"link_inertia_kg_m2": 0.0117}}
     of_arm = svsa.simulate_arm(arm=arm, joint2=of_joint, **settings).joints[1]
-    inertia = {"link_inertia_kg_m2": M.m22 - M.m12**2 / M.m11}
+    inertia = {"link_inertia_kg_m2": M[1][1] - M[0][1] ** 2 / M[0][0]}
     alone = svsa.simulate("4a", "ndobc", actuator=inertia, **of_joint, **settings)
     assert np.abs(alone.position_rad).max() > 0.03
     assert of_arm.position_rad == pytest.approx(alone.position_rad, abs=5e-4)
@@ -128,7 +131,7 @@ def test_joints_list_their_changes_of_the_law():
 
 
 def test_change_of_the_feedforward_of_one_joint_is_rejected():
-    with pytest.raises(svsa.ParameterError, match="feedforward, which acts on both joints"):
+    with pytest.raises(svsa.ParameterError, match="feedforward, which acts on all joints"):
         svsa.Change(at_s=0.02, joint=2, feedforward=True)
 
 
@@ -141,7 +144,7 @@ def test_run_in_several_calls_equals_one_call_bit_for_bit():
         ({"law": "fl"}, {"loads": svsa.SineLoad(torque_nm=(0.2, 0.0, 0.0), frequency_hz=3.0)}),
         (LOAD.changed(start_s=0.15), svsa.TipForce(force_n=(1.0, 0.0))),
     )
-    whole, pieces = np.empty((2, 300, 28)), np.empty((2, 300, 28))
+    whole, pieces = np.empty((2, 2, 300, len(CHANNELS)))
     assert ArmRun(c).advance(whole) == 300
     run = ArmRun(c)
     for begin, stop in ((0, 1), (1, 140), (140, 300)):
@@ -184,8 +187,8 @@ def place(q1, q2):
         ({"stifness": 3.0}, "stifness"),
         ({"steps": 1.5}, "steps is 1.5: it must be an integer"),
         ({"arm": {"length1_m": 0.3}}, "arm is .*: it must be svsa.ArmParameters"),
-        ({"arm": RODS.changed(mass2_kg=50.0, length1_m=3.0)}, "about joint 1 .* is 451.*to 10 kg"),
-        ({"tip_loads": [PUSH]}, r"tip_loads\[0\] is 'constant'.*loads of joint1 or joint2"),
+        ({"arm": HEAVY}, "about joint 1 is 451.*to 10 kg"),
+        ({"tip_loads": [PUSH]}, r"tip_loads\[0\] is 'constant'.*loads of joint1, joint2"),
         ({"loads": LOAD}, "loads is 'at the tip'.*tip_loads"),
         ({"loads": svsa.PushLoad(torque_nm=(1.0, 0.0, 0.0))}, "joint2.loads is 'push'.*joint 1"),
         ({"tip": ELLIPSE, "position": 0.3}, "arm.tip is 'ellipse'.*replaces"),
@@ -231,6 +234,39 @@ def test_fault_names_its_joint_and_ends_both_joints():
     assert result.fault.message.startswith("Joint 2: At 0.5")
     assert result.samples.shape[1] == result.fault.tick
     assert "Ended early: Joint 2" in repr(result)
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("joints", [1, 4])
+def test_arm_of_any_number_of_joints_follows_its_references_and_is_replayed(joints, tmp_path):
+    """The feedforward of the exact links leaves the error of the sampling; the mass disturbs."""
+    configuration = build_actuated_arm("chain", ["svsa"] * joints)
+    change = svsa.Change(at_s=3.0, joint=joints, stiffness={"kind": "constant", **SOFT})
+    options = {"duration_s": 4.0, "feedforward": True, "commands": [change]}
+    load = svsa.TipMass(mass_kg=0.1, start_s=2.0)
+    result = svsa.simulate_arm(configuration, "fl", **options, tip_loads=load)
+    assert result.fault is None
+    assert len(result.joints) == len(result.samples) == joints
+    assert max(np.degrees(result.measure(0.0, 1.9))) < 0.02
+    assert min(np.degrees(result.measure(2.5, 4.0))) > 0.05
+    assert result.joints[-1].stiffness_nm_per_rad[-1] == pytest.approx(100.0, rel=0.05)
+    assert np.all(np.isfinite(result.tip_stiffness_n_per_m[-1])) == (joints > 1)
+    folder = svsa.save_run(result, tmp_path / "arm")
+    assert svsa.open_arm_run(folder).configuration == result.configuration
+    assert svsa.resimulate(folder).identical
+
+
+def test_arm_has_as_many_joints_as_links_and_no_other():
+    chain = RODS.chain * 2
+    for wrong, message in (
+        ({"arm": RODS, "joint3": {"stiffness": 60.0}}, "joint3 is .*joints of this arm are 1 to 2"),
+        ({"arm": RODS.changed(chain=chain[:3]), "tip": ELLIPSE}, "tip is 'ellipse'.*two links"),
+        ({"arm": RODS.changed(chain=chain), "model": RODS}, "arm.model.chain is 2: .*4 links"),
+        ({"arm": RODS.changed(chain=chain[:3]), "comparisons": "fl"}, "comparisons.*of 3 joints"),
+        ({"commands": [svsa.Change(at_s=0.0, joint=3, law="fl")]}, "no joint 3.*1 to 2"),
+    ):
+        with pytest.raises(svsa.SvsaError, match=message):
+            svsa.simulate_arm(duration_s=0.01, **wrong)
 
 
 @pytest.mark.exhaustive

@@ -152,10 +152,9 @@ def test_impulse_removed_before_it_acts_does_not_disturb_the_force_of_the_wall()
     session.step(5)
     journal = session.journal
     rows = journal.history.read(0, 1, list(CHANNEL_INDEX.values()), [0, 1]).transpose(1, 0, 2)
-    given = journal.initial, rows, np.zeros(rows.shape[1])
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        force = ArmResult(*given, commands=tuple(journal.commands)).wall_force_n
+        force = ArmResult(journal.initial, rows, commands=tuple(journal.commands)).wall_force_n
     assert np.all(force[:, 0] > 1.0)
 
 

@@ -8,7 +8,7 @@ import pytest
 import svsa
 from svsa.actuators.signals import CHANNEL_INDEX
 from svsa.runs.definition.command import Set
-from svsa.runs.definition.configuration import Lane, LaneSetting
+from svsa.runs.definition.design import Lane, LaneSetting
 from svsa.runs.execution.run import Run
 from svsa.runs.metrics.metrics import compute_metrics
 from tests.runs.session.sessions import (

@@ -34,7 +34,7 @@ def test_record_is_read_unchanged_and_resimulated_bit_for_bit(tmp_path):
 def test_another_setting_is_another_run(tmp_path):
     folder = svsa.save_run(simulate(), tmp_path / "arm")
     header = json.loads((folder / HEADER_FILE).read_text())
-    header["configuration"]["arm"]["links"]["mass2_kg"] *= 1.0 + 1e-9
+    header["configuration"]["arm"]["links"]["chain"][1]["mass_kg"] *= 1.0 + 1e-9
     (folder / HEADER_FILE).write_text(json.dumps(header))
     again = svsa.resimulate(folder)
     assert not again.identical

@@ -6,7 +6,7 @@ import pytest
 
 from svsa.control.installed import get_law, read_parameters
 from svsa.hardware.session.replay import verify_bench_record
-from svsa.runs.records.former_words import FIELDS, KINDS, MOTION, translate_results
+from svsa.runs.records.former_words import FIELDS, KINDS, MOTION, translate_path, translate_results
 from svsa.runs.records.reader import open_record
 from svsa.runs.records.resimulation import compare_with_simulation, read_origin
 from svsa.runs.result.recorded import open_run
@@ -21,12 +21,33 @@ def test_records_contain_the_former_names(name: str, file: str) -> None:
     assert all(f'"{former}"' in text for former in FIELDS)
 
 
-@pytest.mark.parametrize("name", ["simulated", "comparisons"])
+@pytest.mark.parametrize("name", ["simulated", "comparisons", "arm"])
 def test_former_record_is_replayed_bit_for_bit(name: str) -> None:
     record = open_record(RECORDS / name)
     compared = compare_with_simulation(record)
     assert compared.identical, compared.first_difference
     assert compared.ticks == record.tick_count > 0
+
+
+def test_former_arm_has_joint_2_among_its_joints() -> None:
+    header = (RECORDS / "arm" / "header.json").read_text(encoding="utf-8")
+    assert '"joint2"' in header and '"length2_m"' in header
+    configuration, _ = read_origin(open_record(RECORDS / "arm"))
+    assert [joint.stiffness.stiffness_nm_per_rad for joint in configuration.joints] == [80.0, 60.0]
+    assert [link.length_m for link in configuration.require_arm().links.chain] == [0.3, 0.25]
+
+
+@pytest.mark.parametrize(
+    ("former", "present"),
+    [
+        ("arm.joint2.stiffness", "arm.other_joints[0].stiffness"),
+        ("arm.links.mass2_kg", "arm.links.chain[1].mass_kg"),
+        ("arm.model.inertia1_kg_m2", "arm.model.chain[0].inertia_kg_m2"),
+        ("actuator.link_inertia_kg_m2", "actuator.link_inertia_kg_m2"),
+    ],
+)
+def test_former_path_is_the_present_one(former: str, present: str) -> None:
+    assert translate_path(former) == present
 
 
 def test_former_command_has_its_present_kind() -> None:

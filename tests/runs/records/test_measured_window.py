@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from svsa.runs.definition.configuration import Lane
+from svsa.runs.definition.design import Lane
 from svsa.runs.definition.paper import get_figure
 from svsa.runs.metrics.metrics import compute_metrics
 from svsa.runs.records.measured_window import MeasuredWindow, find_measured_window, measure

@@ -3,7 +3,7 @@
 from typing import Any
 
 from svsa.runs.definition.command import build_command
-from svsa.runs.definition.configuration import Lane
+from svsa.runs.definition.design import Lane
 from svsa.runs.definition.paper import get_figure
 from svsa.runs.records.difference import compare_settings, format_poles
 from svsa.runs.records.reader import Record, build_record

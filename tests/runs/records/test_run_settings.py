@@ -7,7 +7,8 @@ import pytest
 from svsa.actuators.installed import get_mechanism
 from svsa.actuators.signals import CHANNELS
 from svsa.runs.definition.command import build_command
-from svsa.runs.definition.configuration import Configuration, Lane, LaneSetting
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.definition.design import Lane, LaneSetting
 from svsa.runs.definition.design_file import load_prototype
 from svsa.runs.definition.experiment import build_actuator_experiment
 from svsa.runs.definition.paper import get_figure

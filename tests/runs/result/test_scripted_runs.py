@@ -173,7 +173,7 @@ def test_result_is_shown_as_two_lines_and_a_picture(result: svsa.Result) -> None
     lines = repr(result).splitlines()
     assert len(lines) == 2
     assert lines[0].startswith(
-        "NDOBC → FL → NDOBC compared with FL, 0.6 s at 1000 Hz (600 samples of 28 channels)"
+        "NDOBC → FL → NDOBC compared with FL, 0.6 s at 1000 Hz (600 samples of 29 channels)"
     )
     numbers = r"NDOBC since 0\.4 s: position error [\d.e-]+° rms, .* peak; stiffness .* N·m"
     numbers = r"NDOBC since 0\.4 s: position error [\d.e-]+° rms, .* peak; stiffness .* N·m"

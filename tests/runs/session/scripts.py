@@ -8,7 +8,8 @@ from hypothesis import strategies as st
 
 import svsa
 from svsa.runs.definition.command import COMMANDS, OF_ARM, build_command, read_command
-from svsa.runs.definition.configuration import Configuration, LaneSetting
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.definition.design import LaneSetting
 from svsa.runs.execution.replay import simulate_again
 from svsa.simulation.plant.effects.current_lag import CurrentLag
 from svsa.simulation.plant.effects.friction import Friction

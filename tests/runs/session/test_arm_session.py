@@ -274,6 +274,6 @@ def test_settings_that_differ_between_arms_are_listed():
     found = compare_settings([build_arm_result_record(run) for run in runs])
     assert {(one.group, one.name): one.values for one in found} == {
         ("Arm", "feedforward"): ("false", "true"),
-        ("Arm", "joint2.law"): ('"fl"', '"pd"'),
-        ("Arm", "Changes of joint 2 and of the arm"): ("", "law at 0.02 s"),
+        ("Arm", "other_joints[0].law"): ('"fl"', '"pd"'),
+        ("Arm", "Changes of the arm and of joints from 2 on"): ("", "law at 0.02 s"),
     }

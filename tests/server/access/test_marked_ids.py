@@ -81,6 +81,7 @@ NO_IDS_THERE = {
     "GET /api/v1/actuators/{name} path:name": "installed",
     "GET /api/v1/actuators/{name}/datasheet path:name": "installed",
     "POST /api/v1/sessions body:nominal.{}": "a parameter of an actuator",
+    "POST /api/v1/sessions body:actuators.[]": "installed",
 }
 """The same, if the name alone does not determine it."""
 NOT_IN_THE_SCHEMA = {

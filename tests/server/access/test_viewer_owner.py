@@ -8,8 +8,9 @@ from websockets import InvalidStatus, Subprotocol
 from websockets.sync.client import connect
 
 from svsa_server.access.class_keys import ClassKeys
-from tests.lab import PATIENCE_S, Lab, run_lab
+from tests.lab import Lab, run_lab
 from tests.server.scene.viewed_lab import SUBPROTOCOL, decode_scene
+from tests.waiting import PATIENCE_S
 
 
 def open_view(

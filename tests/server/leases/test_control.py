@@ -27,7 +27,8 @@ from svsa_server.leases.lease import (
 from svsa_server.problems import TYPE_PREFIX
 from svsa_server.routes.depends import find_session
 from svsa_server.sessions.hosted import HostedSession
-from tests.lab import PATIENCE_S, Lab
+from tests.lab import Lab
+from tests.waiting import PATIENCE_S
 
 ADA, BOB = {"SVSA-Client": "0123-ada"}, {"SVSA-Client": "4567-bob"}
 SESSION = "/api/v1/sessions/lab"

@@ -112,7 +112,7 @@ def test_record_of_another_actuator_is_named_verified_and_exported_as_a_page(lab
     page = lab.client.get(f"/api/v1/runs/{recorded}/export?kind=html")
     assert page.status_code == 200
     assert f"<title>{name}" in page.text
-    assert '"mechanism":"qbmove"' in page.text.replace(" ", "")
+    assert '"Actuator":"qbmove"' in page.text.replace(" ", "")
     lab.client.delete(path)
 
 

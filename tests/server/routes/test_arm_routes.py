@@ -1,6 +1,7 @@
 """An arm over REST: settings of each joint, loads at the tip, a second arm, records, errors."""
 
 import pytest
+from httpx import Response
 
 from svsa.runs.records.catalogue.runs import Catalogue
 from svsa.runs.records.resimulation import compare_with_simulation
@@ -36,16 +37,42 @@ def open_arm(lab: Lab, **wanted: object) -> dict:
 @pytest.mark.exhaustive
 def test_every_arm_of_the_list_opens_with_its_actuators(lab: Lab) -> None:
     listed = lab.client.get("/api/v1/arms").json()
-    assert [one["name"] for one in listed] == ["rods", "maccepa"]
-    for one in listed:
-        state = open_arm(lab, arm=one["name"])
+    assert [arm["name"] for arm in listed] == ["rods", "maccepa", "chain"]
+    for named in listed:
+        state = open_arm(lab, arm=named["name"])
         arm = state["configuration"]["arm"]
-        assert arm["links"] == arm["model"] == one["links"]
-        assert {state["actuator"]["name"], state["actuator2"]["name"]} == {one["actuator"]}
-        assert [lane["joint"] for lane in state["lanes"]] == [1, 2]
+        assert arm["links"] == arm["model"] == named["links"]
+        actuators = (state["actuator"], *state["other_actuators"])
+        assert {actuator["name"] for actuator in actuators} == {named["actuator"]}
+        numbers = range(1, len(named["links"]["chain"]) + 1)
+        assert [lane["joint"] for lane in state["lanes"]] == list(numbers)
     mixed = open_arm(lab, actuators=["svsa", "qbmove"], feedforward=True)
-    assert mixed["actuator2"]["name"] == "qbmove"
+    assert mixed["other_actuators"][0]["name"] == "qbmove"
     assert mixed["configuration"]["arm"]["feedforward"] is True
+
+
+@pytest.mark.exhaustive
+def test_arm_of_three_joints_is_changed_joint_by_joint_and_recorded(lab: Lab) -> None:
+    own = f"{SESSIONS}/{open_arm(lab, arm='chain', actuators=['svsa'] * 3)['session']}"
+    lab.client.post(f"{own}/pause")
+    lab.client.post(f"{own}/reset")
+    lab.client.post(f"{own}/recording", json={"name": "Three joints"})
+    lab.client.put(f"{own}/law?joint=3", json={"law": "fl"})
+    torque = {"kind": "constant", "torque_nm": [0.1, 0.0, 0.0]}
+    lab.client.post(f"{own}/loads?joint=3", json=torque)
+    state = lab.client.post(f"{own}/step", json={"ticks": 300}).json()
+    assert [lane["law"] for lane in state["lanes"]] == ["ndobc", "ndobc", "fl"]
+    assert [held["joint"] for held in state["loads"]] == [3]
+    refused = lab.client.put(f"{own}/law?joint=4", json={"law": "fl"})
+    assert refused.status_code == 409
+    assert "joints are 1 to 3" in refused.json()["detail"]
+    run_id = state["recording"]["run_id"]
+    lab.client.delete(f"{own}/recording")
+    follow_recording(lab.client, f"/api/v1/runs/{run_id}")
+    assert compare_with_simulation(Catalogue().open(run_id)).identical
+    replay = lab.client.get(f"/api/v1/runs/{run_id}/replay")
+    assert replay.status_code == 200
+    assert "Joint 3" in replay.text
 
 
 def test_setting_of_a_joint_leaves_the_other_one(lab: Lab, path: str) -> None:
@@ -54,7 +81,7 @@ def test_setting_of_a_joint_leaves_the_other_one(lab: Lab, path: str) -> None:
     lab.client.put(f"{path}/stiffness?joint=1", json=soft)
     inertia = {"link_inertia_kg_m2": 0.05}
     state = lab.client.patch(f"{path}/nominal?joint=2", json=inertia).json()
-    first, second = state["configuration"], state["configuration"]["arm"]["joint2"]
+    first, second = state["configuration"], state["configuration"]["arm"]["other_joints"][0]
     assert (first["law"], second["law"]) == ("ndobc", "fl")
     assert (first["stiffness"], second["stiffness"]["stiffness_nm_per_rad"]) == (
         first["stiffness"] | soft,
@@ -68,7 +95,8 @@ def test_patch_of_both_joints_keeps_what_differs_between_them(lab: Lab, path: st
     before = lab.client.get(path).json()["configuration"]
     damping = {"link_damping_nms_per_rad": 0.02}
     after = lab.client.patch(f"{path}/nominal", json=damping).json()["configuration"]
-    for old, new in ((before, after), (before["arm"]["joint2"], after["arm"]["joint2"])):
+    others = (of["arm"]["other_joints"][0] for of in (before, after))
+    for old, new in ((before, after), tuple(others)):
         assert new["nominal"] == old["nominal"] | damping
 
 
@@ -125,7 +153,7 @@ def test_reference_of_the_tip_restarts_the_run(lab: Lab, path: str) -> None:
     lab.client.post(f"{path}/step", json={"ticks": 100})
     state = lab.client.patch(f"{path}/arm", json={"tip": ELLIPSE}).json()
     assert state["tick"] == 0
-    assert state["configuration"]["arm"]["joint2"]["law"] == "fl"
+    assert state["configuration"]["arm"]["other_joints"][0]["law"] == "fl"
     refused = lab.client.put(f"{path}/position", json={"kind": "constant", "position_rad": 0.1})
     assert refused.status_code == 422
     assert "reference of the tip" in refused.json()["detail"]
@@ -168,7 +196,7 @@ def test_recorded_session_is_simulated_again_and_branched(lab: Lab, path: str) -
     assert len(found["lanes"]) == 2
     branch = lab.client.post(SESSIONS, json={"from": "run", "id": run_id, "tick": 400}).json()
     assert branch["tick"] == 400
-    assert branch["configuration"]["arm"]["joint2"]["law"] == "fl"
+    assert branch["configuration"]["arm"]["other_joints"][0]["law"] == "fl"
 
 
 @pytest.mark.parametrize(
@@ -200,4 +228,17 @@ def test_figures_and_excitation_are_of_a_single_joint(lab: Lab, path: str) -> No
     excitation = lab.client.post(f"{path}/excitation", json={})
     assert excitation.status_code == 409
     assert "single joint" in excitation.json()["detail"]
-    assert lab.client.post(f"{path}/design", json={"kind": "prediction"}).status_code == 200
+
+
+def test_design_of_one_joint_is_analyzed_alone(lab: Lab, path: str) -> None:
+    stiffness = {"kind": "constant", "stiffness_nm_per_rad": 33.0}
+    assert lab.client.put(f"{path}/stiffness?joint=2&restart=true", json=stiffness).is_success
+
+    def analyze(joint: int | None) -> Response:
+        request = {"kind": "prediction"} | ({} if joint is None else {"joint": joint})
+        return lab.client.post(f"{path}/design", json=request)
+
+    first, second = (analyze(joint).json()["stiffness_nm_per_rad"] for joint in (1, 2))
+    assert first == analyze(None).json()["stiffness_nm_per_rad"] != second
+    assert second == pytest.approx(33.0, rel=0.05)
+    assert analyze(3).status_code == 409

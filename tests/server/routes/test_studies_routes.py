@@ -105,7 +105,7 @@ def test_study_is_run_to_its_end_and_its_rows_are_those_of_the_table(lab, comple
 
 def test_study_with_chosen_metrics_stores_those(lab):
     offered = lab.get(STUDIES).json()["metrics"]
-    assert {"name": "effort_n2m2_s", "label": "effort", "unit": "N²·m²·s"} in offered
+    assert {"name": "effort_n2m2_s", "label": "Control effort", "unit": "N²·m²·s"} in offered
     assert [one["name"] for one in offered] == [*METRICS]
     kept = ["peak_torque1_nm", "limit_share"]
     few = run_study(lab, name="few", runs=4, metrics=kept, success={"limit_share": 0.5})

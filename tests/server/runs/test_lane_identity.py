@@ -5,7 +5,7 @@ import numpy as np
 from svsa.actuators.signals import CHANNEL_INDEX
 from svsa.control.observers.disturbance import ObserverBandwidth
 from svsa.runs.definition.command import ApplyLoad, Set
-from svsa.runs.definition.configuration import Lane
+from svsa.runs.definition.design import Lane
 from svsa.runs.definition.paper import get_figure
 from svsa.runs.session.frame import HEADER
 from svsa.runs.session.session import Session

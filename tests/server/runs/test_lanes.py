@@ -6,7 +6,7 @@ import pytest
 
 from svsa.control.observers.disturbance import ObserverBandwidth
 from svsa.runs.definition.command import ApplyLoad, Set, build_command
-from svsa.runs.definition.configuration import Lane
+from svsa.runs.definition.design import Lane
 from svsa.runs.definition.paper import get_figure
 from svsa.runs.records.measured_window import trace_record
 from svsa.runs.records.reader import Record, build_record

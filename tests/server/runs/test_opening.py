@@ -40,8 +40,7 @@ def test_run_of_another_design_is_opened_as_its_actuator() -> None:
 
 
 def change_joint2(**changes: object) -> Configuration:
-    arm = ARM.require_arm()
-    return ARM.changed(arm=arm.changed(joint2=arm.joint2.changed(**changes)))
+    return ARM.change_joints([{}, changes])
 
 
 @pytest.mark.parametrize(

@@ -26,7 +26,7 @@ def test_page_shows_the_run_of_the_board_next_to_ndobc(tmp_path, monkeypatch):
     assert lanes[1] == "NDOBC, declared gains"
     assert samples.shape == (11_000, 2, len(channels))
     assert mass.shape == (11_000,)
-    assert details["configuration"]["law"] == lanes[0]
+    assert details["Controller"]["Law"] == lanes[0]
     assert [one.kind for one in named["events"]] == ["load_on"]
     window = named["window"]
     error = samples[window.first_tick : window.end_tick, 0, channels.index("position_error_rad")]

@@ -8,10 +8,10 @@ import pytest
 from websockets.sync.client import ClientConnection, connect
 
 from tests.benchmarks.attacks import is_held, open_websocket
-from tests.lab import PATIENCE_S, Lab, run_lab
+from tests.lab import Lab, run_lab
 from tests.server.scene.viewed_lab import CAMERA, LINK, SUBPROTOCOL, decode_scene
 from tests.slow_link import SlowLink, open_slow_link
-from tests.waiting import wait_until
+from tests.waiting import PATIENCE_S, wait_until
 
 pytestmark = [pytest.mark.exhaustive, pytest.mark.wall_clock]
 

@@ -16,7 +16,7 @@ from svsa.hardware.safety.machine import BenchStatus
 from svsa.hardware.session import commands
 from svsa.hardware.session.session import BenchSession
 from svsa.runs.definition.command import ApplyLoad, Set, Stop
-from svsa.runs.definition.configuration import Lane
+from svsa.runs.definition.design import Lane
 from svsa.simulation.plant.loads.series import SeriesLoad
 from svsa_server.routes.lab import settings
 from svsa_server.schemas.lab.gain import GainsRequest

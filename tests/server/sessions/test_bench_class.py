@@ -24,9 +24,10 @@ from tests.client.copied_script import (
 )
 from tests.exhaustive import exhaust
 from tests.hardware.live_bench import start_live_emulator, write_bench
-from tests.lab import PATIENCE_S, run_lab
+from tests.lab import run_lab
 from tests.lab_in_process import run_lab_in_process
 from tests.server.sessions.bench_lab import BenchLab
+from tests.waiting import PATIENCE_S
 
 pytestmark = pytest.mark.wall_clock
 

@@ -7,7 +7,7 @@ import pytest
 
 from svsa.control.observers.disturbance import ObserverBandwidth
 from svsa.runs.definition.command import ApplyLoad, Command, Set
-from svsa.runs.definition.configuration import Lane
+from svsa.runs.definition.design import Lane
 from svsa.runs.definition.paper import get_figure
 from svsa.runs.session.simulated import SimulatedSession
 from svsa.simulation.plant.loads.paper import PaperLoad

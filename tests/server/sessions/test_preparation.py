@@ -11,8 +11,9 @@ import httpx
 import pytest
 
 from svsa_server.sessions import preparation
-from tests.lab import PATIENCE_S, Lab
+from tests.lab import Lab
 from tests.lab_in_process import run_lab_in_process
+from tests.waiting import PATIENCE_S
 
 LOADS_NOTHING = """
 from svsa.actuators.faults import FAULT_CODES

@@ -9,9 +9,9 @@ import pytest
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
-from tests.lab import PATIENCE_S, Lab, run_lab
+from tests.lab import Lab, run_lab
 from tests.server.sessions.test_stream import HEADER
-from tests.waiting import wait_until
+from tests.waiting import PATIENCE_S, wait_until
 
 SESSIONS = "/api/v1/sessions"
 

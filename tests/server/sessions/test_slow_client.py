@@ -27,10 +27,12 @@ class HeldSocket:
         self.open = asyncio.Event()
         self.open.set()
         self.batches: list[Batch] = []
+        self.end = ""
 
     async def accept(self) -> None: ...
 
-    async def close(self, code: int, reason: str = "") -> None: ...
+    async def close(self, code: int, reason: str = "") -> None:
+        self.end = reason
 
     async def send_text(self, text: str) -> None: ...
 
@@ -121,5 +123,21 @@ def test_slightly_late_client_misses_nothing(monkeypatch: pytest.MonkeyPatch) ->
         await streamed.play(2)
         ticks = np.concatenate([batch.ticks for batch in late.batches])
         assert ticks.tolist() == list(range(streamed.session.run.tick))
+
+    play(monkeypatch, script)
+
+
+def test_session_that_ends_while_a_client_is_slow_ends_its_stream(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    async def script(streamed: StreamedSession) -> None:
+        slow = await streamed.connect()
+        slow.open.clear()
+        await streamed.play(1)
+        streamed.hosted.close()
+        await streamed.settle()
+        slow.open.set()
+        await streamed.settle()
+        assert slow.end == "The session has ended."
 
     play(monkeypatch, script)

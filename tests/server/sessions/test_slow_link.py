@@ -15,9 +15,10 @@ from websockets.sync.client import ClientConnection, connect
 from svsa_server.access.connections import FIRST_WINDOW_BYTES
 from svsa_server.page import PAGE
 from svsa_server.schemas.lab.stream import BATCH_BYTES
-from tests.lab import PATIENCE_S, Lab
+from tests.lab import Lab
 from tests.server.sessions.test_stream import Batch
 from tests.slow_link import SlowLink, open_slow_link
+from tests.waiting import PATIENCE_S
 
 CHANNELS, STRIDE, HISTORY_S = 13, 5, 20
 PAGE_STREAM = f"?rate_hz=200&history_s={HISTORY_S}&lanes=all&live_first=true"

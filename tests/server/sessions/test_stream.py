@@ -14,7 +14,8 @@ from svsa.runs.definition.paper import get_figure
 from svsa.runs.session.simulated import SimulatedSession
 from svsa_server.schemas.lab.stream import StreamRequest
 from svsa_server.sessions.cursor import SampleCursor
-from tests.lab import PATIENCE_S, Lab
+from tests.lab import Lab
+from tests.waiting import PATIENCE_S
 
 HEADER = struct.Struct("<4sIQIIII")
 
@@ -54,6 +55,20 @@ def test_run_faster_than_real_time_has_gaps_and_no_wide_steps() -> None:
         assert batch.missed == 0, "no client was slow"
         assert batch.size < 2000
     assert batches[1].first > batches[0].ticks[-1] + batches[0].stride
+
+
+def test_client_that_waited_gets_the_newest_sample_of_a_paused_session() -> None:
+    session = SimulatedSession("lab", get_figure("4a").build_configuration())
+    request = StreamRequest(rate_hz=200.0, history_s=20.0, live_first=True)
+    cursor = SampleCursor(session, request, ("position_rad",))
+    session.start()
+    session.burst(0.033)
+    batches = []
+    while message := cursor.take_batch(slow=True, waited_s=0.0 if batches else 1.0):
+        batches.append(Batch(message, 1))
+    assert [batch.stride for batch in batches] == [40, 5]
+    assert 0 < session.run.tick - batches[-1].ticks[-1] <= 5
+    assert all(batch.missed == 0 for batch in batches)
 
 
 def open_stream(lab: Lab, query: str = "", **options: object) -> tuple[ClientConnection, dict]:

@@ -1,6 +1,6 @@
 """The plant of an arm without controllers: constant motor torques, loads at the tip."""
 
-from svsa.actuators.arm.dynamics import Joints, add_tip_mass, compute_arm_energy, turn
+from svsa.actuators.arm.dynamics import add_tip_mass, compute_arm_energy, turn
 from svsa.actuators.arm.parameters import RODS
 from svsa.actuators.dynamics import ExternalLoad, compute_deflection
 from svsa.actuators.elasticity import compute_coordinate
@@ -35,9 +35,9 @@ def build_arm(arm=RODS, steps=1, period=0.001, tip_loads=(), damped=True, **both
 
 
 def step(blocks, inputs, x, tick, torque=(AT_REST, AT_REST)):
-    """Both joints a period later."""
+    """All joints a period later."""
     tip = compute_tip_action(inputs.tip, tick)
-    arm, loads = add_tip_mass(blocks.arm, tip.mass), (NO_LOAD, NO_LOAD)
+    arm, loads = add_tip_mass(blocks.arm, tip.mass), (NO_LOAD,) * len(x)
     rate = compute_arm_rate(blocks, arm, inputs.tip, tick, x, torque, loads, tip.force)
     return integrate_arm(blocks, inputs, x, rate, torque, torque, loads, tip, tick)
 
@@ -52,12 +52,11 @@ def move(blocks, inputs, x, ticks, torque=(AT_REST, AT_REST)):
 
 def compute_energy(blocks, x, mass=0.0):
     """Energy of links, motors and springs, J. mass: at the tip, kg."""
-    x1, x2 = x
-    arm = add_tip_mass(blocks.arm, mass)
-    energy = compute_arm_energy(arm, turn(Joints(x1.q, x2.q)), Joints(x1.dq, x2.dq))
-    for one, joint in zip(x, (blocks.joint1, blocks.joint2), strict=True):
+    q, dq = tuple(joint.q for joint in x), tuple(joint.dq for joint in x)
+    energy = compute_arm_energy(add_tip_mass(blocks.arm, mass), turn(q), dq)
+    for state, joint in zip(x, blocks.joints, strict=True):
         p = joint.plant
-        energy += 0.5 * (p.B1 * one.dtheta1**2 + p.B2 * one.dtheta2**2)
-        mu = compute_coordinate(p, one.theta2)
-        energy += compute_elastic_energy(mu, compute_deflection(one), p.K)
+        energy += 0.5 * (p.B1 * state.dtheta1**2 + p.B2 * state.dtheta2**2)
+        mu = compute_coordinate(p, state.theta2)
+        energy += compute_elastic_energy(mu, compute_deflection(state), p.K)
     return energy

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from svsa.actuators.arm.dynamics import Joints, Point, compute_mass_matrix, compute_tip_torque, turn
+from svsa.actuators.arm.dynamics import Point, compute_mass_matrix, compute_tip_torque, turn
 from svsa.actuators.arm.parameters import RODS
 from svsa.actuators.dynamics import ExternalLoad
 from svsa.actuators.signals import Torque
@@ -32,7 +32,7 @@ def test_damping_loses_the_power_of_the_velocities():
     blocks, inputs = build_arm(period=1e-4)
     states = move(blocks, inputs, START, 2)
     power = 0.0
-    for x, joint in zip(states[1], (blocks.joint1, blocks.joint2), strict=True):
+    for x, joint in zip(states[1], blocks.joints, strict=True):
         p = joint.plant
         power += p.D * x.dq**2 + p.D1 * x.dtheta1**2 + p.D2 * x.dtheta2**2
     lost = compute_energy(blocks, states[0]) - compute_energy(blocks, states[2])
@@ -41,16 +41,15 @@ def test_damping_loses_the_power_of_the_velocities():
 
 def compute_momentum(blocks, x):
     """∂T/∂q̇ of both links, N·m·s."""
-    M = compute_mass_matrix(blocks.arm, turn(Joints(x[0].q, x[1].q)))
-    dq1, dq2 = x[0].dq, x[1].dq
-    return np.array([M.m11 * dq1 + M.m12 * dq2, M.m12 * dq1 + M.m22 * dq2])
+    M = compute_mass_matrix(blocks.arm, turn((x[0].q, x[1].q)))
+    return np.array(M) @ [x[0].dq, x[1].dq]
 
 
 def test_momentum_about_joint_1_is_kept_in_the_horizontal_plane():
     """Nothing outside turns the arm: links and principal motor 1 exchange momentum only."""
     blocks, inputs = build_arm(RODS.changed(gravity_m_per_s2=0.0), damped=False)
     states = move(blocks, inputs, START, 300)
-    B1 = blocks.joint1.plant.B1
+    B1 = blocks.joints[0].plant.B1
     totals = [compute_momentum(blocks, x)[0] + B1 * x[0].dtheta1 for x in states]
     alone = [compute_momentum(blocks, x)[0] for x in states]
     assert np.ptp(totals) < 1e-8
@@ -64,7 +63,7 @@ def test_tip_impulse_changes_the_generalized_momentum_by_its_joint_torques():
     )
     still = tuple(x._replace(dq=0.0, dtheta1=0.0, theta1=x.q) for x in START)
     states = move(blocks, inputs, still, 8)
-    angles = turn(Joints(still[0].q, still[1].q))
+    angles = turn((still[0].q, still[1].q))
     wanted = compute_tip_torque(blocks.arm, angles, Point(0.2, -0.1))
     # The springs take a part of it meanwhile, and the arm turns.
     assert compute_momentum(blocks, states[6]) == pytest.approx(np.array(wanted), rel=0.02)
@@ -75,7 +74,7 @@ def test_work_of_a_tip_force_equals_the_gain_in_energy():
     force = TipForce(force_n=(2.0, 1.0), duration_s=0.05)
     blocks, inputs = build_arm(damped=False, tip_loads=(force,))
     states = move(blocks, inputs, START, 60)
-    l1, l2 = RODS.length1_m, RODS.length2_m
+    l1, l2 = (link.length_m for link in RODS.chain)
 
     def compute_tip(x):
         p = x[0].q + x[1].q
@@ -125,10 +124,9 @@ def test_external_load_on_joint_2_accelerates_both_links():
         rate = compute_arm_rate(blocks, blocks.arm, inputs.tip, 0, START, none, loads, free)
         return np.array([rate[0].dq, rate[1].dq])
 
-    M = compute_mass_matrix(blocks.arm, turn(Joints(START[0].q, START[1].q)))
-    matrix = np.array([[M.m11, M.m12], [M.m12, M.m22]])
+    M = compute_mass_matrix(blocks.arm, turn((START[0].q, START[1].q)))
     change = compute_accelerations(load) - compute_accelerations(NO_LOAD)
-    assert matrix @ change == pytest.approx(np.array([0.0, 0.7]), abs=1e-12)
+    assert np.array(M) @ change == pytest.approx(np.array([0.0, 0.7]), abs=1e-12)
 
 
 def test_motors_of_an_arm_accelerate_as_those_of_a_single_joint():
@@ -153,7 +151,7 @@ def test_motors_of_an_arm_accelerate_as_those_of_a_single_joint():
         (NO_LOAD, NO_LOAD),
         Point(0.0, 0.0),
     )
-    plant = blocks.joint1.plant
+    plant = blocks.joints[0].plant
     assert rate[0].dtheta1 - without[0].dtheta1 == pytest.approx(1.5 / plant.B1)
     assert rate[0].dtheta2 - without[0].dtheta2 == pytest.approx(-0.4 / plant.B2)
     assert rate[1] == without[1]

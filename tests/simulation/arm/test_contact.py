@@ -5,19 +5,23 @@ import math
 import numpy as np
 import pytest
 
-from svsa.actuators.arm.dynamics import Joints, compute_mass_matrix, turn
+from svsa.actuators.arm.dynamics import compute_mass_matrix, turn
 from svsa.actuators.arm.parameters import MACCEPA_ARM, RODS
 from svsa.errors import ParameterError
-from svsa.simulation.arm.contact import check_wall, compute_least_tip_mass
+from svsa.simulation.arm.contact import (
+    check_wall,
+    compute_effective_mass,
+    compute_least_tip_mass,
+)
 from svsa.simulation.plant.loads.tip import Wall
 
 
 @pytest.mark.parametrize("links", [RODS, MACCEPA_ARM, RODS.changed(tip_mass_kg=0.4)])
 def test_least_mass_is_that_of_the_inverse_of_the_mass_matrix(links):
     arm, found = links.build(), []
-    l1, l2 = links.length1_m, links.length2_m
+    l1, l2 = (link.length_m for link in links.chain)
     for q1, q2 in np.stack([np.linspace(-1.0, 2.0, 721), np.linspace(-math.pi, math.pi, 721)], 1):
-        M = compute_mass_matrix(arm, turn(Joints(q1, q2)))
+        M = compute_mass_matrix(arm, turn((q1, q2)))
         p = q1 + q2
         J = np.array(
             [
@@ -25,7 +29,10 @@ def test_least_mass_is_that_of_the_inverse_of_the_mass_matrix(links):
                 [l1 * math.sin(q1) + l2 * math.sin(p), l2 * math.sin(p)],
             ]
         )
-        mobility = J @ np.linalg.inv([[M.m11, M.m12], [M.m12, M.m22]]) @ J.T
+        mobility = J @ np.linalg.inv(M) @ J.T
+        n = np.array([math.cos(p), math.sin(p)])
+        mass = compute_effective_mass(arm, (q1, q2), p)
+        assert mass == pytest.approx(1.0 / (n @ mobility @ n), rel=1e-9)
         found.append(1.0 / np.linalg.eigvalsh(mobility)[1])
     assert compute_least_tip_mass(arm) == pytest.approx(min(found), rel=1e-4)
 

@@ -29,10 +29,8 @@ def judge(step, run):
 
 
 def with_stiffness(configuration, first, second):
-    reference = [svsa.ConstantStiffness(stiffness_nm_per_rad=one) for one in (first, second)]
-    arm = configuration.arm
-    setup = arm.changed(joint2=arm.joint2.changed(stiffness=reference[1]))
-    return configuration.changed(stiffness=reference[0], arm=setup)
+    values = (svsa.ConstantStiffness(stiffness_nm_per_rad=sigma) for sigma in (first, second))
+    return configuration.change_joints([{"stiffness": value} for value in values])
 
 
 def test_lanes_of_a_run_are_the_joints_of_both_arms(tmp_path):
@@ -116,8 +114,8 @@ def test_run_of_another_arm_reports_the_difference(changes, said):
 
 def test_other_law_in_joint_2_is_reported():
     step = find_step("ellipse", "design")
-    joint2 = step.configuration.arm.joint2.changed(law="fl")
-    results = judge(step, open_other(step, arm={"joint2": joint2}))
+    joint2 = step.configuration.joints[1].changed(law="fl")
+    results = judge(step, open_other(step, arm={"other_joints": (joint2,)}))
     assert "law of joint 2 was not" in results[0].feedback
 
 
@@ -193,7 +191,7 @@ def test_example_in_the_docs_is_valid():
     )
     named = 'name = "tip"\nlabel = "Stiffness of the tip"\nMEASURE\n'
     step = parse_exercise(text.replace(named, measure), "arm", "arm.md").find_step("run")
-    assert step.configuration.arm.joint2.position.position_rad == 1.2
+    assert step.configuration.joints[1].position.position_rad == 1.2
     assert step.measures[0].shown_unit == "N/m"
 
 

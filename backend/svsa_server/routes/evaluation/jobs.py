@@ -10,7 +10,7 @@ from fastapi.responses import Response
 from svsa.control.installed import get_title
 from svsa.errors import StateError
 from svsa.evaluation.tuning.search_space import build_space
-from svsa.runs.definition.configuration import Design
+from svsa.runs.definition.design import Design
 from svsa_server.access.owned import Owned
 from svsa_server.access.permissions import OBSERVER, OPERATOR, allow
 from svsa_server.jobs import falsifications, tunings

@@ -21,7 +21,7 @@ router = build_router("", tags=["lab"], responses=REFUSALS | CHANGED, route_clas
 @router.get("/arms")
 @allow(OBSERVER)
 async def read_arms() -> list[NamedArmState]:
-    """List the arms of two joints that a session can simulate."""
+    """List the arms that a session can simulate."""
     return [NamedArmState(name=name, **arm._asdict()) for name, arm in ARMS.items()]
 
 

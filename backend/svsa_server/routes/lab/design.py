@@ -65,6 +65,8 @@ async def analyze_design(
 ) -> Prediction | ResponseState | StabilityState | MarginsState | RegionState:
     """Analyze gains, observer and law before they are applied; the session is not changed.
 
+    A joint of an arm is analyzed alone, without the coupling with the others.
+
     * `prediction`: the roots, the law's steady-state error under the 3 kg (and FL's, if the law
       adds an estimate to the gains), the torque noise of the encoders, the peak torque under the
       load, and a verdict with its reasons. Gains that PUT …/gains rejects get the verdict refuse.
@@ -88,7 +90,7 @@ async def analyze_design(
 
 
 async def _predict(session: Session, request: PredictionRequest) -> Prediction:
-    configuration, sigma = read_design_basis(session)
+    configuration, sigma = read_design_basis(session, request)
     if request.observer is not None:
         configuration = configuration.changed(observer=request.observer)
     if request.gains is not None:

@@ -6,6 +6,7 @@ from fastapi import Body, Query
 
 from svsa.errors import StateError
 from svsa.runs.definition.command import ApplyLoad, JointNumber, RemoveLoad
+from svsa.runs.definition.configuration import MAX_JOINTS
 from svsa.runs.session.session import remove_loads
 from svsa.simulation.plant.loads import Load
 from svsa.simulation.plant.loads.mass import PAPER_ARM_M, PAPER_MASS_KG
@@ -58,7 +59,11 @@ def apply_load(
     load: GivenLoad,
     joint: Annotated[
         JointNumber | None,
-        Query(ge=1, le=2, description="Joint of an arm on which a torque acts; default: joint 1"),
+        Query(
+            ge=1,
+            le=MAX_JOINTS,
+            description="Joint of an arm on which a torque acts; default: joint 1",
+        ),
     ] = None,
 ) -> AddedLoad:
     """Add a load, now or at `start_s`; the answer has its `id`, and `Location` its address.

@@ -14,7 +14,8 @@ from svsa.control.parameters import LawParameters
 from svsa.errors import ParameterError
 from svsa.inputs.checked import Checked
 from svsa.runs.definition.command import JointNumber, Set
-from svsa.runs.definition.configuration import LaneSetting
+from svsa.runs.definition.configuration import MAX_JOINTS
+from svsa.runs.definition.design import LaneSetting
 from svsa.simulation.plant.effects import Effects
 from svsa.simulation.reference.kinds import PositionReference, StiffnessReference
 from svsa_server.access.permissions import OBSERVER, OPERATOR, allow
@@ -46,7 +47,8 @@ Restart = Annotated[
 ]
 
 OfJoint = Annotated[
-    JointNumber | None, Query(ge=1, le=2, description="Joint of an arm to change; default: both")
+    JointNumber | None,
+    Query(ge=1, le=MAX_JOINTS, description="Joint of an arm to change; default: all"),
 ]
 
 if TYPE_CHECKING:

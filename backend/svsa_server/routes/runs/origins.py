@@ -5,7 +5,8 @@ from collections.abc import Iterable, Mapping
 from fastapi import Request
 
 from svsa.runs.definition.command import Command
-from svsa.runs.definition.configuration import Configuration, Design
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.definition.design import Design
 from svsa.runs.records import resimulation
 from svsa.runs.records.catalogue.entry import RunEntry
 from svsa.runs.records.header import BranchPoint, PlantKind, RecordError

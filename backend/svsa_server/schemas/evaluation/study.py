@@ -17,7 +17,7 @@ from svsa.evaluation.studies.stored import StoredStudy
 from svsa.evaluation.studies.study import MAX_LAWS, MAX_RUNS, Study
 from svsa.evaluation.studies.summary import SUCCEEDED
 from svsa.evaluation.studies.tables import format_metric
-from svsa.evaluation.studies.work import build_schema
+from svsa.evaluation.studies.work import DRAW, LAW, ROW, SEED, build_schema
 from svsa.inputs import arrow as pa
 from svsa.inputs.checked import Checked, Whole, quantity
 from svsa_server.access.owned import Owned
@@ -283,6 +283,18 @@ def describe_study(stored: StoredStudy, job: Job | None) -> StudyState:
     )
 
 
+_TITLES = {
+    ROW: "Row",
+    DRAW: "Sample",
+    LAW: "Control law",
+    SEED: "Seed",
+    SUCCEEDED: "Succeeded",
+    "fault": "Fault",
+    "fault_tick": "Tick of the fault",
+}
+"""Titles of the columns that are neither settings nor metrics."""
+
+
 def _describe_columns(study: Study) -> list[StudyColumn]:
     varied = {variation.column: variation for variation in study.vary}
     base = study.build_base(study.laws[0])
@@ -298,7 +310,7 @@ def _describe_columns(study: Study) -> list[StudyColumn]:
             role = "outcome"
         variation = varied.get(field.name)
         name = named.get(field.name) or SettingName(
-            format_metric(field.name), METRICS.get(field.name, "")
+            _TITLES.get(field.name) or format_metric(field.name), METRICS.get(field.name, "")
         )
         is_log = variation is not None and (
             variation.kind == "log_uniform" or getattr(variation, "spacing", "") == "log"

@@ -9,7 +9,7 @@ from svsa.evaluation.tuning.judge import find_noise_limit
 from svsa.evaluation.tuning.search_space import build_space
 from svsa.evaluation.tuning.tuner import BUDGET, Stage
 from svsa.inputs.checked import Checked, Number, Whole, quantity
-from svsa.runs.definition.configuration import Lane
+from svsa.runs.definition.design import Lane
 from svsa_server.access.owned import Owned
 from svsa_server.jobs.job import Job
 from svsa_server.jobs.tunings import read_candidates

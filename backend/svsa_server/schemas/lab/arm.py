@@ -8,8 +8,8 @@ from svsa.actuators.arm.parameters import ArmParameters
 from svsa.control.arm_payload import PayloadAdaptation
 from svsa.control.installed import PAPERS_LAW, InstalledLaw
 from svsa.inputs.checked import Checked, Flag, Whole, quantity
-from svsa.runs.definition.arm_experiment import ARMS, build_arm_experiment
-from svsa.runs.definition.configuration import ArmSetup, Configuration
+from svsa.runs.definition.arm_experiment import ARMS, build_actuated_arm
+from svsa.runs.definition.configuration import MAX_JOINTS, ArmSetup, Configuration
 from svsa.simulation.arm.tip_reference import TipReference
 from svsa.simulation.plant.effects import IDEAL, Effects
 from svsa_server.schemas.lab.law import InstalledLane
@@ -24,21 +24,26 @@ class NamedArmState(BaseModel):
     name: str
     title: str
     description: str
-    actuator: str = Field(description="Default actuator of both joints: see GET /actuators")
+    actuator: str = Field(description="Default actuator of its joints: see GET /actuators")
     links: ArmParameters
 
 
 class FromArm(Checked):
-    """An arm's default experiment, running: both joints follow a sine, or the tip a path."""
+    """An arm's default experiment, running: its joints follow sines, or the tip a path."""
 
     source: Literal["arm"] = quantity("", "An arm", alias="from")
     arm: str = quantity("", "Name of an arm: see GET /arms", default="rods", max_length=40)
-    actuators: tuple[str, str] | None = quantity(
-        "", "Installed actuator of joint 1 and of joint 2; by default that of the arm", default=None
+    actuators: tuple[str, ...] | None = quantity(
+        "",
+        "Installed actuator of each joint, from joint 1 on; by default that of the arm. Fewer"
+        " actuators than links make an arm of the first links",
+        min_length=1,
+        max_length=MAX_JOINTS,
+        default=None,
     )
-    law: InstalledLaw = quantity("", "Law of both joints: see GET /laws", default=PAPERS_LAW)
+    law: InstalledLaw = quantity("", "Law of all joints: see GET /laws", default=PAPERS_LAW)
     comparisons: tuple[InstalledLane, ...] = quantity(
-        "", "Controller of both joints of a second arm", max_length=1, default=()
+        "", "Controller of all joints of a second arm", max_length=1, default=()
     )
     feedforward: Flag = quantity("", "Whether the laws get the arm feedforward", default=False)
     tip: TipReference | None = quantity(
@@ -49,10 +54,12 @@ class FromArm(Checked):
     )
     seed: Whole = quantity("", "Seed of the sensor noise", ge=0, le=2**63 - 1, default=0)
 
-    def list_actuators(self) -> tuple[str, str]:
+    def list_actuators(self) -> tuple[str, ...]:
         """Return the actuator of each joint."""
-        default = ARMS[self.arm].actuator if self.arm in ARMS else ""
-        return self.actuators or (default, default)
+        if self.actuators or self.arm not in ARMS:
+            return self.actuators or ()
+        arm = ARMS[self.arm]
+        return (arm.actuator,) * len(arm.links.chain)
 
     def build_configuration(self) -> Configuration:
         """Build the session's configuration.
@@ -60,16 +67,14 @@ class FromArm(Checked):
         Raises:
             ParameterError: If a value is invalid.
         """
-        own: list[dict[str, Any]] = [{"actuator": name} for name in self.actuators or ()]
-        each = own or ({}, {})
-        both = {
+        all_joints = {
             "law": self.law,
             "comparisons": self.comparisons,
             "effects": self.effects,
             "seed": self.seed,
         }
         settings: dict[str, Any] = {"feedforward": self.feedforward, "tip": self.tip}
-        return build_arm_experiment(self.arm, settings, both, each)
+        return build_actuated_arm(self.arm, self.actuators or (), settings, all_joints)
 
 
 class ArmPatch(Checked):

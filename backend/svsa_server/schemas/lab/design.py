@@ -6,7 +6,8 @@ from pydantic import BaseModel, Field
 
 from svsa.analysis.design.prediction import Reason, Verdict
 from svsa.control.observers.disturbance import ObserverBandwidth
-from svsa.inputs.checked import Checked, FiniteOrNull, quantity
+from svsa.inputs.checked import Checked, FiniteOrNull, Whole, quantity
+from svsa.runs.definition.configuration import MAX_JOINTS
 from svsa_server.schemas.lab.gain import ComplexRoot, GainsRequest
 from svsa_server.schemas.response import ResponseModel, TextOrNull
 
@@ -18,6 +19,10 @@ class TriedDesign(Checked):
     observer: ObserverBandwidth | None = quantity(
         "", "New observer, as for PUT …/observer", default=None
     )
+    joint: Whole | None = quantity(
+        "", "Joint of an arm, which is analyzed without the coupling; default: 1",
+        ge=1, le=MAX_JOINTS, default=None,
+    )  # fmt: skip
 
 
 class PredictionRequest(TriedDesign):

@@ -14,7 +14,7 @@ from svsa.control.installed import (
 )
 from svsa.control.law import EstimateSource
 from svsa.errors import ParameterError
-from svsa.runs.definition.configuration import Lane
+from svsa.runs.definition.design import Lane
 from svsa_server.problems import ShownText
 from svsa_server.schemas.lab.parameter import ParameterState, list_parameters
 

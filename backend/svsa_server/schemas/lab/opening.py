@@ -8,7 +8,8 @@ from typing_extensions import TypeAliasType
 from svsa.control.installed import PAPERS_LAW, InstalledLaw
 from svsa.evaluation.falsifier.scenario import LoadScenario
 from svsa.inputs.checked import Checked, Flag, Whole, quantity
-from svsa.runs.definition.configuration import MAX_LANES, Configuration, Design, Lane
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.definition.design import MAX_LANES, Design, Lane
 from svsa.runs.definition.experiment import build_actuator_experiment
 from svsa.simulation.plant.effects import IDEAL, Effects
 from svsa_server.access.owned import Owned

@@ -6,7 +6,8 @@ from pydantic import BaseModel, Field
 
 from svsa.control.installed import PAPERS_LAW, InstalledLaw
 from svsa.inputs.checked import Checked, Flag, Number, Whole, quantity
-from svsa.runs.definition.configuration import MAX_LANES, Configuration, Design
+from svsa.runs.definition.configuration import Configuration
+from svsa.runs.definition.design import MAX_LANES, Design
 from svsa.runs.definition.paper import get_figure
 from svsa.runs.records.header import BranchPoint
 from svsa.runs.timeline.events import Event
@@ -142,8 +143,8 @@ class SessionState(SessionProgress):
     )
     rate_hz: float
     actuator: ActuatorSummary
-    actuator2: ActuatorSummary | None = Field(
-        description="Value of joint 2 of an arm, otherwise null"
+    other_actuators: list[ActuatorSummary] = Field(
+        description="Actuators of the joints of an arm from the second on"
     )
     configuration: ConfigurationState
     loads: list[LoadState]

@@ -12,7 +12,7 @@ from svsa.control.installed import InstalledLaw
 from svsa.control.observers.disturbance import ObserverBandwidth
 from svsa.errors import ParameterError
 from svsa.inputs.checked import Checked, quantity
-from svsa.runs.definition.configuration import MAX_LANES, Lane
+from svsa.runs.definition.design import MAX_LANES, Lane
 from svsa.simulation.arm.tip_reference import TipReference
 from svsa.simulation.plant.effects import Effects
 from svsa.simulation.plant.effects.effect import PresetName
@@ -102,7 +102,7 @@ class ArmSetupState(BaseModel):
     tip: TipReference | None = Field(
         description="Reference of the tip, in place of those of the joints"
     )
-    joint2: "ConfigurationState"
+    other_joints: list["ConfigurationState"] = Field(description="Joints from the second on")
 
 
 class ConfigurationState(BaseModel):

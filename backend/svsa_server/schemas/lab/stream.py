@@ -7,7 +7,7 @@ from pydantic import BaseModel, Field
 
 from svsa.actuators.signals import PLOTTED
 from svsa.inputs.checked import Checked, Number, Whole, quantity
-from svsa.runs.definition.configuration import MAX_LANES
+from svsa.runs.definition.design import MAX_LANES
 from svsa.runs.result.channels import ChannelName
 from svsa.runs.session.frame import (
     HEADER,

@@ -1,7 +1,5 @@
 """Answers about lanes: their controllers over time, and their metrics."""
 
-from typing import Literal
-
 from pydantic import BaseModel, Field
 
 from svsa.runs.metrics.metrics import Metrics
@@ -59,7 +57,7 @@ class LaneState(BaseModel):
         " of the load; its recovery time is that after the load"
     )
     lane: int
-    joint: Literal[1, 2] | None = Field(description="Joint of an arm; null for a single joint")
+    joint: int | None = Field(description="Joint of an arm; null for a single joint")
     id: int = Field(
         description="Unique during the run: a lane keeps its id if lanes before it are removed, and"
         " no lane gets the id of a removed one"

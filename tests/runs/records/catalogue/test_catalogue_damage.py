@@ -19,7 +19,7 @@ from tests.runs.records.records import add, list_ids
 
 RUNS = ["run-1", "run-2", "run-3"]
 NAME = "catalogue.sqlite"
-FEW, MANY = 40, 1500
+FEW, MANY = 40, 500
 FORMER = (75, 245, 251, 295, 405, 435)
 """Seeds of damages that prevented the start: texts in messages of SQLite that are not UTF-8."""
 

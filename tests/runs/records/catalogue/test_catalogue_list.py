@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from svsa.runs.definition.configuration import Lane
+from svsa.runs.definition.design import Lane
 from svsa.runs.definition.paper import get_figure
 from svsa.runs.records.catalogue.database import build_order
 from svsa.runs.records.catalogue.entry import SORTS

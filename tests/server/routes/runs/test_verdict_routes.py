@@ -6,7 +6,7 @@ import httpx
 import numpy as np
 import pytest
 
-from svsa.runs.definition.configuration import Lane
+from svsa.runs.definition.design import Lane
 from svsa.runs.definition.paper import get_figure
 from svsa.runs.records.catalogue.runs import Catalogue
 from svsa.runs.records.writer import write_record
