@@ -18,7 +18,8 @@ const FOLDERS = [
   ["core/stream"],
   ["core/api"],
   ["core/quantities", "core/readnumber"],
-  ["core/armgeometry", "core/icons", "core/translation", "core/units"],
+  ["core/schema"],
+  ["core/armgeometry", "core/icons", "core/rate", "core/scale", "core/translation", "core/units"],
   ["core/text"],
   ["core/stored"],
 ];

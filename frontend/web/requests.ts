@@ -36,13 +36,8 @@ function tabulateNumbers(names: string, schemas: Schemas): object {
     .split(" ")
     .flatMap((name) => Object.entries((schemas[name] as Request).properties ?? {}));
   const numbers = fields.map(([name, field]) => {
-    const {
-      type,
-      minimum,
-      exclusiveMinimum: low = minimum,
-      maximum: high,
-    } = field.prefixItems?.[0] ?? field;
-    return [name, { type, unit: field.unit, low, high }] as const;
+    const { type, minimum, exclusiveMinimum, maximum } = field.prefixItems?.[0] ?? field;
+    return [name, { type, unit: field.unit, minimum, exclusiveMinimum, maximum }] as const;
   });
   return Object.fromEntries(numbers.filter(([, { type }]) => type === "number"));
 }

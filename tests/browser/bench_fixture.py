@@ -117,10 +117,16 @@ class PatchedBench:
         self.change(**copy.deepcopy(BENCH) | change)
 
     def change(self, **change: Any) -> None:
-        """Change the bench, and notify the page on its stream."""
+        """Change the bench, and notify the page on its stream.
+
+        With the lab's present state: the page ignores one that is older than another it knows.
+        """
         self.bench |= change
-        if self._stream is not None:
-            self._stream.send(json.dumps({"type": "state", "state": self._reported}))
+        if self._stream is None:
+            return
+        address = self._stream.url.partition("/stream")[0].replace("ws", "http", 1)
+        state = self._patch(self.page.request.get(address).json())
+        self._stream.send(json.dumps({"type": "state", "state": state}))
 
     def drop(self) -> None:
         """Disconnect the page: it loses its stream, and no call is answered."""
@@ -129,12 +135,7 @@ class PatchedBench:
         if self._stream is not None:
             self._stream.close()
 
-    @property
-    def _reported(self) -> dict:
-        return self._patch(self._last)
-
     def _patch(self, state: dict) -> dict:
-        self._last = state
         status = STATUS.get(self.bench["status"], "paused")
         fault = self._fault if self.bench["status"] == "fault" else None
         return state | {"bench": self.bench, "status": status, "fault": fault}

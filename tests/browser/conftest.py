@@ -10,7 +10,7 @@ import pytest
 from playwright.sync_api import Browser, BrowserContext, Error, Locator, Page, Playwright, expect
 
 from tests.lab import Lab
-from tests.waiting import follow_recording
+from tests.waiting import PATIENCE_S, follow_recording
 
 # Without a graphics card: the page is composed by software, and WebGL is drawn by SwiftShader.
 # Composing by SwiftShader as well took most of the CPU time of a test.
@@ -32,7 +32,7 @@ ARGUMENTS = [
 RETURNING = """localStorage.setItem("svsa.tour", "done");
 localStorage.setItem("svsa.controls", "all");"""
 
-PATIENCE_MS = 60_000
+PATIENCE_MS = int(1000 * PATIENCE_S)
 expect.set_options(timeout=PATIENCE_MS)  # a busy machine needs time
 
 open_context = Browser.new_context

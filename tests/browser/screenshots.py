@@ -14,7 +14,6 @@ from tests.lab import Lab, run_lab
 FOLDER = Path(__file__).parents[2] / "frontend" / "screenshots"
 COLORS = 256
 SETTLE_MS = 3000
-LONGEST_MS = 90_000
 
 
 def compare(lab: Lab, seconds: float = 9.0) -> None:
@@ -54,8 +53,8 @@ def show_design(page: Page, lab: Lab) -> None:
     page.get_by_role("button", name="Place poles").click()
     page.get_by_role("spinbutton", name=re.compile("^Position")).first.fill("45")
     page.keyboard.press("Enter")
-    page.get_by_text("Predicted effect").wait_for(timeout=LONGEST_MS)
-    expect(page.get_by_text("Computing…")).to_have_count(0, timeout=LONGEST_MS)
+    page.get_by_text("Predicted effect").wait_for()
+    expect(page.get_by_text("Computing…")).to_have_count(0)
 
 
 def show_overlay(page: Page, lab: Lab) -> None:
@@ -82,9 +81,7 @@ def show_overlay(page: Page, lab: Lab) -> None:
 def show_ranking(page: Page, lab: Lab) -> None:
     """The table of laws."""
     page.goto(lab.url + "/?ranking=all")
-    page.get_by_role("heading", name="Position error against stiffness error").wait_for(
-        timeout=LONGEST_MS
-    )
+    page.get_by_role("heading", name="Position error against stiffness error").wait_for()
 
 
 def take(

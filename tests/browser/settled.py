@@ -39,3 +39,23 @@ def get_box(one: Locator) -> FloatRect:
     box = one.bounding_box()
     assert box is not None
     return box
+
+
+def record_statuses(page: Page) -> None:
+    """Record every text of a status from now on: a busy machine may not look while it is shown."""
+    page.evaluate(
+        """() => {
+            window.statuses = [];
+            const record = () => {
+                for (const status of document.querySelectorAll("[role=status]"))
+                    window.statuses.push(status.textContent);
+            };
+            const changes = { childList: true, characterData: true, subtree: true };
+            new MutationObserver(record).observe(document.body, changes);
+        }"""
+    )
+
+
+def expect_recorded(page: Page, text: str) -> None:
+    """Wait until a status has had this text since `record_statuses`."""
+    page.wait_for_function("text => window.statuses.includes(text)", arg=text)

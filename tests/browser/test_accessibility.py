@@ -11,7 +11,6 @@ from playwright.sync_api import Page, expect
 from tests.browser.bench_fixture import PatchedBench
 from tests.browser.settled import find_lasting
 from tests.browser.test_page import (
-    WORKER_MS,
     choose,
     come_back,
     open_page,
@@ -164,9 +163,7 @@ def open_overlay(page: Page, lab: Lab) -> None:
     expect(page.get_by_role("table", name="Settings that differ")).to_be_visible()
     page.get_by_role("button", name="Compare").click()
     verdict = page.get_by_role("region", name="Verdict")
-    expect(verdict.get_by_role("status")).to_contain_text(
-        re.compile("tolerance"), timeout=WORKER_MS
-    )
+    expect(verdict.get_by_role("status")).to_contain_text(re.compile("tolerance"))
     expect(verdict.get_by_role("cell", name=re.compile("^(within|outside)$"))).to_have_count(2)
 
 

@@ -12,7 +12,6 @@ from svsa.teaching.course.file import list_exercise_files
 from svsa_server.access.class_keys import ClassKeys, ShownOnce
 from tests.browser.conftest import RETURNING
 from tests.browser.test_accessibility import PHONE, WIDE, expect_no_violation
-from tests.browser.test_page import WORKER_MS
 from tests.lab import Lab, run_lab
 
 pytestmark = [pytest.mark.browser]
@@ -150,14 +149,10 @@ def test_instructor_sees_users_locks_and_shows_a_code(open_page, room: Room) -> 
     expect_no_violation(teacher, WIDE, PHONE)
     panel.get_by_role("button", name="Audit log").click()
     log = panel.get_by_role("table").filter(has_text="Result")
-    expect(log.get_by_role("row", name="Renew code").first).to_contain_text(
-        "Instructor", timeout=WORKER_MS
-    )
+    expect(log.get_by_role("row", name="Renew code").first).to_contain_text("Instructor")
     panel.get_by_label("Category").select_option(label="Control")
-    expect(log.get_by_role("row", name="Lock control").first).to_contain_text(
-        "done", timeout=WORKER_MS
-    )
-    expect(log.get_by_role("row", name="Renew code")).to_have_count(0, timeout=WORKER_MS)
+    expect(log.get_by_role("row", name="Lock control").first).to_contain_text("done")
+    expect(log.get_by_role("row", name="Renew code")).to_have_count(0)
     expect_no_violation(teacher, WIDE, PHONE)
     panel.get_by_role("button", name="Unlock control").click()
     expect(find_banner(student, "The instructor has locked control.")).to_be_hidden()

@@ -5,7 +5,7 @@ import re
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
-from tests.browser.settled import get_box
+from tests.browser.settled import get_box, until
 from tests.browser.test_page import (
     LAST_TIME,
     ONE_DEGREE,
@@ -166,6 +166,7 @@ def test_legend_cuts_the_reference_before_the_laws(page: Page, still_lab: Lab) -
         still_lab.jump(1)
     legend = page.get_by_role("region", name="Position plot", exact=True)
     expect(legend.get_by_role("button", name=re.compile("^NDOBC β 60"))).to_be_visible()
-    assert page.evaluate(CUT_NAMES, "[data-plot='position']") == ["reference"]
+    # The names are narrower until the values of the last step are shown next to them.
+    until(page, lambda: page.evaluate(CUT_NAMES, "[data-plot='position']") == ["reference"])
     page.set_viewport_size({"width": 1280, "height": 720})
     assert not {"FL", "true"} & set(page.evaluate(CUT_NAMES, ""))

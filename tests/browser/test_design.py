@@ -6,7 +6,7 @@ import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from tests.browser.settled import get_box, until
-from tests.browser.test_page import WORKER_MS, come_back, open_page
+from tests.browser.test_page import come_back, open_page
 from tests.lab import Lab
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
@@ -21,9 +21,9 @@ def panel(page: Page, still_lab: Lab) -> Locator:
     panel = page.get_by_role("dialog", name="Design")
     expect(panel.get_by_role("status", name="Verdict: Usable")).to_be_visible()
     stable = panel.get_by_role("row", name=re.compile("^M × 0.23 – 3.84"))
-    expect(stable).to_be_visible(timeout=WORKER_MS)
+    expect(stable).to_be_visible()
     after_load = panel.get_by_role("img", name=re.compile("error after the 3 kg.* 4.14°"))
-    expect(after_load).to_be_visible(timeout=WORKER_MS)
+    expect(after_load).to_be_visible()
     return panel
 
 
@@ -95,7 +95,7 @@ def test_unstable_poles_have_a_reason_and_cannot_be_applied(page: Page, panel: L
 def test_map_is_completed(panel: Locator) -> None:
     panel.get_by_role("button", name="Compute map").click()
     reported = panel.get_by_text("21.3 % of 961 initial states converge, on the rig")
-    expect(reported).to_be_visible(timeout=WORKER_MS)
+    expect(reported).to_be_visible()
 
 
 @pytest.mark.exhaustive
@@ -137,7 +137,7 @@ def test_panel_fits_the_screen(page: Page, panel: Locator) -> None:
     until(page, is_within)
     page.wait_for_function("document.documentElement.scrollHeight <= innerHeight")
     panel.evaluate("panel => panel.scrollTo(0, panel.scrollHeight)")
-    panel.get_by_role("button", name="Close").click(timeout=WORKER_MS)
+    panel.get_by_role("button", name="Close").click()
     expect(panel).to_be_hidden()
 
 
@@ -163,11 +163,9 @@ def test_unstable_design_faults_in_a_private_simulation(
 ) -> None:
     panel.get_by_role("spinbutton", name="Observer bandwidth β").fill("900")
     panel.get_by_role("spinbutton", name="Position bandwidth").fill("190")
-    expect(panel.get_by_text(re.compile("^The run ends in a fault"))).to_be_visible(
-        timeout=WORKER_MS
-    )
+    expect(panel.get_by_text(re.compile("^The run ends in a fault"))).to_be_visible()
     unstable = panel.get_by_text("On the rig this loop is unstable")
-    expect(unstable).to_be_visible(timeout=WORKER_MS)
+    expect(unstable).to_be_visible()
     after_load, under_sine = (
         panel.get_by_role("img", name=re.compile(name))
         for name in ("^Position error after the 3 kg", "^Error for a sine")

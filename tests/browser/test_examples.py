@@ -7,7 +7,6 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.browser.test_accessibility import PHONE, expect_no_violation
-from tests.browser.test_page import WORKER_MS
 from tests.lab import Lab, run_lab
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
@@ -37,7 +36,7 @@ def test_studies_page_first_shows_a_finished_example(page: Page, fresh_lab: Lab)
     open_wide(page, fresh_lab, "studies")
     head = page.get_by_role("heading", name=re.compile("^Example A step of 0 to 10"))
     expect(head).to_be_visible()
-    expect(page.get_by_role("row", name=re.compile("^NDOBC 256"))).to_be_visible(timeout=WORKER_MS)
+    expect(page.get_by_role("row", name=re.compile("^NDOBC 256"))).to_be_visible()
     expect(page.get_by_role("region", name="First plane")).to_be_visible()
     expect(page.get_by_role("button", name="Delete")).to_have_count(0)
     expect_no_scrolling(page)
@@ -47,7 +46,7 @@ def test_studies_page_first_shows_a_finished_example(page: Page, fresh_lab: Lab)
 def test_finished_study_is_loading_until_its_runs_are_read(page: Page, fresh_lab: Lab) -> None:
     page.route("**/studies/*/rows*", lambda _: None)
     open_wide(page, fresh_lab, "studies")
-    expect(page.get_by_text("Loading the runs …")).to_be_visible(timeout=WORKER_MS)
+    expect(page.get_by_text("Loading the runs …")).to_be_visible()
     expect(page.get_by_text("No run completed yet")).to_have_count(0)
 
 
@@ -55,7 +54,7 @@ def test_falsifier_page_first_shows_a_finished_example(page: Page, fresh_lab: La
     open_wide(page, fresh_lab, "falsifier")
     expect(page.get_by_role("heading", name=re.compile("^Example impulse-ndobc"))).to_be_visible()
     laws = page.get_by_role("region", name="Laws under this load")
-    expect(laws).to_contain_text("1 of 2 laws had no fault.", timeout=WORKER_MS)
+    expect(laws).to_contain_text("1 of 2 laws had no fault.")
     expect_no_scrolling(page)
     expect_no_violation(page, DESKTOP, PHONE)
 

@@ -6,7 +6,7 @@ import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from tests.browser.test_accessibility import PHONE, TABLET, WIDE, expect_no_violation
-from tests.browser.test_page import WORKER_MS, go_to_page
+from tests.browser.test_page import go_to_page
 from tests.lab import Lab
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
@@ -24,10 +24,10 @@ def search(page: Page, lab: Lab) -> Locator:
     # The result of an earlier search is shown until then.
     page.wait_for_url(re.compile("falsifier=(?!all)"))
     reported = page.get_by_role("region", name=re.compile("^NDOBC: "))
-    expect(reported).to_contain_text("Simplified load with the same failure", timeout=WORKER_MS)
-    expect(reported).to_contain_text(re.compile(r"pulse of .* N·m on the link"), timeout=WORKER_MS)
+    expect(reported).to_contain_text("Simplified load with the same failure")
+    expect(reported).to_contain_text(re.compile(r"pulse of .* N·m on the link"))
     laws = page.get_by_role("region", name="Laws under this load")
-    expect(laws).to_contain_text("None of 2 laws had a fault.", timeout=WORKER_MS)
+    expect(laws).to_contain_text("None of 2 laws had a fault.")
     for name in ("Load", "Position error", "Stiffness error"):
         expect(page.get_by_role("region", name=name, exact=True)).to_be_visible()
     return laws
@@ -46,7 +46,7 @@ def test_load_is_searched_saved_run_with_a_law_and_shown(page: Page, still_lab: 
     page.wait_for_url(re.compile("scenario=mine"))
     page.get_by_text("Choose laws").press("Enter")
     page.get_by_role("checkbox", name="FL", exact=True).press("Space")
-    expect(laws).to_contain_text("No fault.", timeout=WORKER_MS)
+    expect(laws).to_contain_text("No fault.")
     assert "laws=ndobc" in page.url
     address = page.url
     page.get_by_role("button", name="Open NDOBC under this load in 3D").press("Enter")
@@ -55,7 +55,7 @@ def test_load_is_searched_saved_run_with_a_law_and_shown(page: Page, still_lab: 
 
     page.goto(address)
     rows = page.get_by_role("table").get_by_role("row")
-    expect(rows).to_have_count(2, timeout=WORKER_MS)
+    expect(rows).to_have_count(2)
     kept = still_lab.client.get("/api/v1/scenarios").json()
     assert "mine" in [one["name"] for one in kept]
 

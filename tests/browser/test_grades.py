@@ -10,7 +10,7 @@ from playwright.sync_api import Locator, Page, expect
 from svsa.teaching.course.progress import ProgressStore
 from svsa.teaching.grading.class_grades import open_book
 from tests.browser.test_accessibility import PHONE, WIDE, expect_no_violation
-from tests.browser.test_page import WORKER_MS, go_to_page, open_page
+from tests.browser.test_page import go_to_page, open_page
 from tests.lab import Lab
 from tests.teaching.grading.test_class_grades import submit
 
@@ -38,7 +38,7 @@ def grade(page: Page, lab: Lab) -> Locator:
         expect(row.get_by_role("button", name="not graded")).to_be_visible()
     page.get_by_role("button", name=re.compile("^Grade [0-9]")).press("Enter")
     points = table.get_by_role("row", name="Ada").get_by_role("button", name="0 of 14")
-    expect(points).to_be_visible(timeout=WORKER_MS)
+    expect(points).to_be_visible()
     expect(page.get_by_role("button", name="All submissions are graded")).to_be_disabled()
     points.press("Enter")
     expect(points).to_have_attribute("aria-pressed", "true")

@@ -169,3 +169,16 @@ def test_only_the_translation_of_the_language_is_loaded(browser: Browser, lab: L
         loaded = page.evaluate("performance.getEntriesByType('resource').map(({ name }) => name)")
         assert re.findall(r"/assets/(de|zh-Hans)-[^/]*\.js", "\n".join(loaded)) == files
         page.context.close()
+
+
+def test_a_page_that_is_not_translated_says_so_to_a_screen_reader(
+    browser: Browser, lab: Lab
+) -> None:
+    page = open_lab(browser, lab, "de-DE")
+    spoken = "() => document.querySelector('main').closest('[lang]').lang"
+    assert page.evaluate(spoken) == "de"
+    page.goto(f"{lab.url}?runs=all")
+    expect(page.locator("main h1, main h2").first).to_be_visible()
+    assert page.evaluate(spoken) == "en"
+    assert page.locator("nav").first.evaluate("(nav) => nav.closest('[lang]').lang") == "de"
+    page.context.close()

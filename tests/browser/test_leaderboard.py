@@ -11,7 +11,7 @@ from svsa.teaching.leaderboard import board as boards
 from svsa.teaching.leaderboard.board import FOLDER, Board, build_entry, measure_missing
 from svsa.teaching.submission import digest_law
 from tests.browser.test_accessibility import PHONE, WIDE, expect_no_violation
-from tests.browser.test_page import WORKER_MS, go_to_page, open_page
+from tests.browser.test_page import go_to_page, open_page
 from tests.lab import Lab
 from tests.teaching.leaderboard.test_leaderboard import build_short_season
 
@@ -59,7 +59,7 @@ def test_board_is_sorted_opens_a_worst_run_and_survives_a_reload(
     assert page.evaluate(ALL_WITHIN_THE_PAGE)
     table.get_by_role("link", name=re.compile("^Mine, worst run in 3D")).press("Enter")
     expect(page.get_by_role("heading", name="Worst run of Mine")).to_be_visible()
-    expect(page.get_by_text("are not saved")).to_be_visible(timeout=WORKER_MS)
+    expect(page.get_by_text("are not saved")).to_be_visible()
     page.reload()
     expect(page.get_by_role("heading", name="Worst run of Mine")).to_be_visible()
     page.get_by_role("link", name="← Leaderboard").press("Enter")
@@ -86,5 +86,5 @@ def test_failing_law_is_reported_with_the_place(page: Page, lab_with_board: Lab)
     page.get_by_role("button", name="Submit", exact=True).press("Enter")
     expect(page.get_by_role("heading", name=re.compile("^Measur.*: Broken"))).to_be_in_viewport()
     reported = page.get_by_role("alert").filter(has_text="The submission failed.")
-    expect(reported).to_contain_text("NameError: name 'spring' is not defined", timeout=WORKER_MS)
+    expect(reported).to_contain_text("NameError: name 'spring' is not defined")
     expect(reported).to_contain_text("line 2, in law")

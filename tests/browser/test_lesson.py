@@ -9,7 +9,6 @@ from playwright.sync_api import Locator, Page, expect
 from svsa.teaching.course.exercise import Exercise
 from svsa.teaching.course.steps import Experiment, Explain, Predict
 from tests.browser.settled import get_box, resize, until
-from tests.browser.test_page import WORKER_MS
 from tests.exhaustive import exhaust
 from tests.lab import Lab
 from tests.teaching.course.runs import find_exercise
@@ -58,7 +57,7 @@ class KeyboardStudent:
     def open_arm(self, step: Experiment) -> None:
         """Leave the session of a single joint; the page is loaded again at the same step."""
         self.press_next("Open session of arm")
-        self.page.wait_for_url("**session=private**", timeout=WORKER_MS)
+        self.page.wait_for_url("**session=private**")
         heading = self.page.get_by_role("heading", name=step.title)
         expect(heading).to_be_visible()
         heading.focus()
@@ -72,7 +71,7 @@ class KeyboardStudent:
             self.press_next("Run and record")
         else:
             self.press_next("Set up and run")
-        expect(self.find_results().get_by_role("listitem").first).to_be_visible(timeout=WORKER_MS)
+        expect(self.find_results().get_by_role("listitem").first).to_be_visible()
         expect(self.page.get_by_text("Saved:")).to_be_hidden()
 
     def choose(self, step: Explain, answer: str) -> None:
@@ -91,7 +90,7 @@ class KeyboardStudent:
             self.press_next("Insert the law above")
             self.press_next("Test and save")
             tried = self.page.get_by_text(re.compile("^(Passed|Saved, not tested)")).first
-            expect(tried).to_be_visible(timeout=WORKER_MS)
+            expect(tried).to_be_visible()
         self.page.keyboard.press("Tab")
         self.page.keyboard.type("Grace")
         self.page.keyboard.press("Enter")
@@ -145,4 +144,4 @@ def test_exercise_is_completed_and_submitted_by_keyboard(page: Page, lab: Lab, n
     is_free = any(isinstance(one, Experiment) and one.free for one in exercise.steps)
     points = r"[\d.]+" if is_free else most
     reported = page.get_by_text(re.compile(f"Submitted: {points} of {most} points"))
-    expect(reported.first).to_be_visible(timeout=WORKER_MS)
+    expect(reported.first).to_be_visible()

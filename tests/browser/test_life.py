@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import BrowserContext, Page, expect
 
+from tests.browser.conftest import PATIENCE_MS
 from tests.browser.test_page import (
     LAST_TIME,
-    WORKER_MS,
     choose,
     go_to_page,
     open_page,
@@ -20,7 +20,6 @@ from tests.waiting import follow
 
 pytestmark = pytest.mark.browser
 
-PATIENCE_MS = 60_000
 SAMPLE_S = 0.02
 FOOT_IS_AT = """height => {
     const { bottom } = document.querySelector(".statusbar").getBoundingClientRect();
@@ -100,13 +99,13 @@ def test_restarted_server_is_found_with_its_recordings(page: Page, tmp_path: Pat
         end = page.evaluate(LAST_TIME)
         lab.process.kill()
         lost = page.get_by_role("alert").get_by_text("Connection lost")
-        expect(lost).to_be_visible(timeout=PATIENCE_MS)
+        expect(lost).to_be_visible()
         bar = page.get_by_role("region", name="Status", exact=True)
         expect(bar.get_by_text("Unknown")).to_be_visible()
         for claim in ("Running", "Paused", "real time", "watching"):
             expect(bar.get_by_text(claim)).to_have_count(0)
     with (
-        page.expect_request("**/viser/lab/**", timeout=WORKER_MS) as view,
+        page.expect_request("**/viser/lab/**") as view,
         run_lab(port=port, data=str(tmp_path)) as lab,
     ):
         lab.client.post(lab.session + "/reset").raise_for_status()
@@ -133,7 +132,7 @@ def test_ended_private_session_is_reported_with_a_link_back(page: Page, lab: Lab
     name = lab.client.post("/api/v1/sessions", json={}).raise_for_status().json()["session"]
     page.goto(f"{lab.url}/?session={name}")
     bar = page.get_by_role("region", name="Status", exact=True)
-    expect(bar.get_by_text("Live")).to_be_visible(timeout=PATIENCE_MS)
+    expect(bar.get_by_text("Live")).to_be_visible()
     lab.client.delete(f"/api/v1/sessions/{name}").raise_for_status()
     banner = page.get_by_role("complementary", name="Private session")
     expect(banner).to_contain_text("has ended")
@@ -148,4 +147,4 @@ def test_ended_private_session_is_reported_with_a_link_back(page: Page, lab: Lab
     page.wait_for_function(FOOT_IS_AT, arg=720)
     expect(page.get_by_text("Waiting for the lab")).to_have_count(0)
     banner.get_by_role("link", name="Back to the shared lab").click()
-    expect(bar.get_by_text("Live")).to_be_visible(timeout=PATIENCE_MS)
+    expect(bar.get_by_text("Live")).to_be_visible()

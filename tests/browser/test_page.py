@@ -6,13 +6,12 @@ import re
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
-from tests.browser.conftest import RETURNING
+from tests.browser.conftest import PATIENCE_MS, RETURNING
+from tests.browser.settled import until
 from tests.lab import Lab
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page")]
 
-PATIENCE_MS = 60_000
-WORKER_MS = 300_000
 """A worker starts, with a lower priority than all other work."""
 ONE_DEGREE = 0.01745
 KNOWN_LAW = re.compile("^Control law: [A-Z]")
@@ -131,6 +130,38 @@ def test_load_button_causes_an_error_from_which_ndobc_recovers(page: Page, lab: 
     wait_for_samples(page, onset + 2.5)
     assert page.evaluate(LARGEST_ERROR, [onset]) > 2 * ONE_DEGREE
     assert page.evaluate(LARGEST_ERROR, [onset + 1.5]) < 0.1 * ONE_DEGREE
+
+
+# Frames per second that the page requests.
+FRAMES = """() => new Promise((resolve) => {
+    const began = performance.now();
+    let frames = 0;
+    const request = window.requestAnimationFrame.bind(window);
+    window.requestAnimationFrame = (callback) => { frames++; return request(callback); };
+    setTimeout(() => resolve(1000 * frames / (performance.now() - began)), 2000);
+})"""
+
+
+@pytest.mark.usefixtures("without_3d", "still")
+def test_page_of_a_paused_session_draws_with_the_messages_about_it_only(
+    own_page: Page, lab: Lab
+) -> None:
+    open_page(own_page, lab)
+    wait_for_samples(own_page)
+    assert own_page.evaluate(FRAMES) <= 15  # at most 5 messages per second
+
+
+@pytest.mark.usefixtures("without_3d", "still")
+def test_load_button_brings_a_scheduled_load_forward(page: Page, lab: Lab) -> None:
+    lab.client.delete(lab.session + "/loads").raise_for_status()
+    lab.client.post(lab.session + "/loads", json={"kind": "paper", "start_s": 5.0})
+    open_page(page, lab)
+    expect(page.get_by_role("button", name=re.compile("Hang 3 kg"))).to_contain_text("5 s")
+    page.get_by_role("button", name=re.compile("Hang 3 kg")).click()
+    expect(page.get_by_role("button", name=re.compile("Remove 3 kg"))).to_be_visible()
+    until(page, lambda: [load["start_s"] for load in lab.read()["loads"]] == [1.0])
+    lab.jump(1)
+    assert lab.read()["load_window"]["start_s"] == 1.0
 
 
 @pytest.mark.usefixtures("without_3d", "still")

@@ -9,11 +9,11 @@ from typing import NamedTuple
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
+from tests.browser.conftest import PATIENCE_MS
 from tests.scene.replay_page import write_page
 
 pytestmark = pytest.mark.browser
 
-PATIENCE_MS = 60_000
 
 # Half the angle of the link in the 3D view, as its sine.
 LINK_IN_3D = """() => document.querySelector("iframe").contentWindow
@@ -66,7 +66,7 @@ def open_file(page: Page, path: Path) -> Watch:
     page.context.set_offline(True)
     watch = Watch(page)
     page.goto(path.as_uri())
-    expect(page.locator(".view.is-shown")).to_be_attached(timeout=PATIENCE_MS)
+    expect(page.locator(".view.is-shown")).to_be_attached()
     return watch
 
 
@@ -101,9 +101,7 @@ def opened(opened_once: Opened) -> Opened:
 
 
 def wait_for_link(page: Page, angle_rad: float) -> None:
-    page.wait_for_function(
-        f"Math.abs(({LINK_IN_3D})() - {math.sin(angle_rad / 2)}) < 5e-4", timeout=PATIENCE_MS
-    )
+    page.wait_for_function(f"Math.abs(({LINK_IN_3D})() - {math.sin(angle_rad / 2)}) < 5e-4")
 
 
 def wait_for_lines(page: Page, share: float, tolerance: float) -> None:
@@ -187,7 +185,7 @@ def test_replay_plays_pauses_and_obeys_keys_also_inside_the_3d_view(
     # Of the run of 4 s, enough is left when a slow machine presses the next key.
     page.get_by_label("Speed").select_option("0.25")
     page.get_by_role("button", name="Play").click()
-    page.wait_for_function(f"{read} > 0.3", timeout=PATIENCE_MS)
+    page.wait_for_function(f"{read} > 0.3")
     page.keyboard.press("Space")
     expect(page.get_by_role("button", name="Play")).to_be_visible()
     page.keyboard.press("Home")
@@ -202,7 +200,7 @@ def test_replay_plays_pauses_and_obeys_keys_also_inside_the_3d_view(
     page.keyboard.press("Home")
     page.wait_for_function(f"{read} === 0")
     page.keyboard.press("Space")
-    page.wait_for_function(f"{read} > 0.1", timeout=PATIENCE_MS)
+    page.wait_for_function(f"{read} > 0.1")
     watch.check(exported)
 
 

@@ -54,7 +54,7 @@ def test_slow_curve_is_smooth(page: Page, tmp_path: Path) -> None:
 
 @pytest.mark.exhaustive
 def test_run_of_the_emulated_rig_is_marked(page: Page, tmp_path: Path) -> None:
-    open_file(page, write_page(tmp_path, details={"plant": "emulated"}))
+    open_file(page, write_page(tmp_path, plant="emulated"))
     expect(page.get_by_text("EMULATED", exact=True)).to_be_visible()
 
 

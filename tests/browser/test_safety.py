@@ -8,7 +8,8 @@ import pytest
 from playwright.sync_api import Page, Request, expect
 
 from tests.browser.bench_fixture import HOMED, PatchedBench, describe_fault
-from tests.browser.test_page import PATIENCE_MS, go_to_page, open_page
+from tests.browser.conftest import PATIENCE_MS
+from tests.browser.test_page import go_to_page, open_page
 from tests.exhaustive import exhaust
 from tests.lab import Lab
 

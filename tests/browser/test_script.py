@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
+from tests.browser.settled import expect_recorded, record_statuses
 from tests.browser.test_arm import Arm, open_arm
 from tests.browser.test_page import choose, choose_law, open_page
 from tests.lab import Lab
@@ -57,8 +58,9 @@ def test_every_action_shows_its_call_in_python_and_curl(page: Page, lab: Lab) ->
     choose_law(page, "FL")
     expect(calls.last).to_contain_text('json={"law": "fl"}')
     expect(calls).to_have_count(2)
+    record_statuses(page)
     calls.first.get_by_role("button", name="Copy POST sessions/lab/loads").click()
-    expect(calls.first.get_by_role("status")).to_have_text("Copied")
+    expect_recorded(page, "Copied")
     page.wait_for_function(COPIED, arg=python)
 
     choose(drawer.get_by_role("radio", name="curl"))
@@ -92,8 +94,9 @@ def test_experiment_as_a_script_repeats_it_and_disturbs_no_user(
     lab.jump(1)
 
     drawer = open_drawer(page)
+    record_statuses(page)
     drawer.get_by_role("button", name="Copy this experiment as a script").click()
-    expect(drawer.get_by_role("status").filter(has_text="Copied")).to_be_attached()
+    expect_recorded(page, "Copied")
     before = lab.read()
     sessions = len(lab.client.get("/api/v1/sessions").json())
     code = read_clipboard(page)

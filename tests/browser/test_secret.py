@@ -6,7 +6,6 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.browser.conftest import PATIENCE_MS
 from tests.browser.test_accessibility import PHONE, WIDE, expect_no_violation
 from tests.browser.test_page import show_all_controls, wait_for_samples
 from tests.browser.test_safety import wait_for_status
@@ -42,7 +41,7 @@ def test_secret_is_requested_once_and_never_shown(page: Page, locked: Lab) -> No
     # Without login a simulation cannot be stopped, so no stop is offered.
     expect(page.get_by_role("dialog").get_by_role("button", name="Quick stop")).to_have_count(0)
     # The page repeats a stop without an answer: it must be rejected before the login.
-    with page.expect_response(re.compile("/api/v1/quick-stop$"), timeout=PATIENCE_MS):
+    with page.expect_response(re.compile("/api/v1/quick-stop$")):
         page.keyboard.press("Shift+Escape")
     field.fill(SECRET)
     field.press("Enter")

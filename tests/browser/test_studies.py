@@ -12,7 +12,6 @@ from svsa.evaluation.studies.execution import run_study
 from svsa.evaluation.studies.store import keep_study
 from tests.browser.settled import get_box, until
 from tests.browser.test_accessibility import PHONE, TABLET, WIDE, expect_no_violation
-from tests.browser.test_page import WORKER_MS
 from tests.evaluation.studies.studies import VARIED, build_study
 from tests.exhaustive import exhaust
 from tests.lab import Lab, run_lab
@@ -40,7 +39,7 @@ def test_study_is_selected_from_and_opens_a_run(
     page.goto(studied.url + "/?studies=all")
     page.get_by_role("link", name=re.compile("^short")).press("Enter")
     law = page.get_by_role("row", name=re.compile("^NDOBC"))
-    expect(law).to_contain_text(re.compile(r"40.*%"), timeout=WORKER_MS)
+    expect(law).to_contain_text(re.compile(r"40.*%"))
     expect_no_violation(page, *sizes)
 
     plane = page.get_by_role("region", name="First plane")
@@ -55,13 +54,11 @@ def test_study_is_selected_from_and_opens_a_run(
     expect(page.get_by_role("button", name="Overlay both runs")).to_be_visible()
     expect_no_violation(page, WIDE)
     page.get_by_role("button", name="Open in 3D").last.press("Enter")
-    page.wait_for_url(re.compile(r"run="), timeout=WORKER_MS)
+    page.wait_for_url(re.compile(r"run="))
     expect(page.get_by_role("heading", name=re.compile("^Study short, row "))).to_be_visible()
 
     page.goto(address)
-    expect(page.get_by_text(re.compile(r"^\d+ of 80 runs in the brush"))).to_be_visible(
-        timeout=WORKER_MS
-    )
+    expect(page.get_by_text(re.compile(r"^\d+ of 80 runs in the brush"))).to_be_visible()
     brush = plane.locator(".u-select")
     expect(brush).to_be_visible()
     until(page, lambda: get_box(brush)["width"] > 100)
@@ -90,8 +87,8 @@ def test_rejected_value_is_explained_at_its_field_and_a_bound_is_sent_in_si(
     name = page.get_by_role("textbox", name="Save as")
     name.fill("a b")
     page.get_by_text("Success criterion: study default").click()
-    page.get_by_role("checkbox", name="rms of q_d − q", exact=True).check()
-    bound = page.get_by_role("spinbutton", name=re.compile("^rms of q.*, at most"))
+    page.get_by_role("checkbox", name="rms position error", exact=True).check()
+    bound = page.get_by_role("spinbutton", name=re.compile("^rms position error, at most"))
     page.get_by_role("button", name="Check").click()
     expect(bound).to_be_focused()
     expect(bound).to_have_attribute("aria-invalid", "true")
@@ -171,7 +168,7 @@ def test_bars_of_the_sensitivity_have_the_length_of_its_sobol_indices(
     assert max(expected) > 0.3
     page.goto(studied.url + "/?studies=decided")
     panel = page.get_by_role("region", name="Sensitivity of the success")
-    expect(panel).to_be_visible(timeout=WORKER_MS)
+    expect(panel).to_be_visible()
 
     def read_drawn() -> list[float]:
         return [share for row in panel.evaluate(SHARES_SHOWN) for share in row]

@@ -9,9 +9,11 @@ import pytest
 from playwright.sync_api import Locator, Page, Response, expect
 
 from svsa.runs.definition.design_file import parse_design
+from tests.browser.conftest import PATIENCE_MS
 from tests.browser.settled import get_box, resize, until
-from tests.browser.test_page import WORKER_MS, go_to_page, open_page
-from tests.lab import PATIENCE_S, Lab
+from tests.browser.test_page import go_to_page, open_page
+from tests.lab import Lab
+from tests.waiting import PATIENCE_S
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
 
@@ -43,13 +45,13 @@ def tune(panel: Locator) -> dict[str, Any]:
     with panel.page.expect_response(begins_tuning) as begun:
         panel.get_by_role("button", name="Start").press("Enter")
     address = f"{begun.value.url}/{begun.value.json()['id']}"
-    for _ in range(WORKER_MS // 200):
+    for _ in range(PATIENCE_MS // 200):
         found = read(address).json()
         if found["status"] == "done":
             break
         panel.page.wait_for_timeout(200)
     end = panel.get_by_text(f"FL + I: {CANDIDATES} of {CANDIDATES} candidates. Done.")
-    expect(end).to_be_visible(timeout=WORKER_MS)
+    expect(end).to_be_visible()
     return found["result"]
 
 

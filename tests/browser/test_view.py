@@ -6,14 +6,13 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
+from tests.browser.conftest import PATIENCE_MS
 from tests.browser.test_page import come_back
 from tests.browser.test_safety import wait_for_status
 from tests.lab import Lab
 
 pytestmark = pytest.mark.browser
 
-LONG_MS = 180_000
-"""Without a graphics card, a busy machine draws less than two frames a second."""
 ATTEMPTS = 30
 SIZES = ((390, 844), (1280, 720), (1440, 900))
 CAMERA = """() => {
@@ -38,10 +37,9 @@ def wait_for_view(page: Page) -> None:
     """Wait until the view is displayed and its camera is at rest."""
     expect(page.frame_locator("iframe").locator("canvas").first).to_be_visible()
     page.wait_for_function(
-        "() => !!document.querySelector('iframe')?.contentWindow?.__viserMutable?.camera",
-        timeout=LONG_MS,
+        "() => !!document.querySelector('iframe')?.contentWindow?.__viserMutable?.camera"
     )
-    page.wait_for_function(STANDS_STILL, timeout=LONG_MS)
+    page.wait_for_function(STANDS_STILL)
 
 
 def open_view(page: Page, lab: Lab) -> None:
@@ -77,9 +75,52 @@ def view(opened_once: Page, browser_context_args: dict, lab: Lab) -> Page:
 def test_camera_moves_to_a_preset_of_this_page_only(view: Page) -> None:
     page = view
     page.get_by_role("button", name="Camera: Side").click()
-    page.wait_for_function(f"() => ({CAMERA})()[0] < -11", timeout=LONG_MS)
+    page.wait_for_function(f"() => ({CAMERA})()[0] < -11")
     page.get_by_role("button", name="Camera: Front").click()
-    page.wait_for_function(f"() => ({CAMERA})()[2] < -8", timeout=LONG_MS)
+    page.wait_for_function(f"() => ({CAMERA})()[2] < -8")
+
+
+def test_camera_remains_when_the_view_is_loaded_again(view: Page) -> None:
+    """As after a lost connection."""
+    view.get_by_role("button", name="Camera: Side").click()
+    view.wait_for_function(f"() => ({CAMERA})()[0] < -11")
+    view.get_by_role("button", name="Dark theme").click()
+    view.wait_for_function("() => document.querySelector('iframe').src.includes('darkMode')")
+    wait_for_view(view)
+    assert view.evaluate(CAMERA)[0] < -11
+    view.get_by_role("button", name="Light theme").click()
+    wait_for_view(view)
+
+
+# Its messages from the connection on are held until `connectViser()`.
+SLOW_CONNECTION = """
+const Plain = Worker;
+window.Worker = class extends Plain {
+    set onmessage(take) {
+        let held = Promise.resolve();
+        super.onmessage = (event) => {
+            if (event.data.type === "connected")
+                held = new Promise((connect) => { top.connectViser = connect; });
+            held = held.then(() => take.call(this, event));
+        };
+    }
+};"""
+
+
+def test_camera_chosen_before_the_scene_arrives_remains(own_page: Page, lab: Lab) -> None:
+    """viser returns to its first camera when it receives a scene."""
+    own_page.add_init_script(SLOW_CONNECTION)
+    open_view(own_page, lab)
+    own_page.wait_for_function("() => !!window.connectViser")
+    own_page.get_by_role("button", name="Camera: Side").click()
+    own_page.evaluate("connectViser()")
+    own_page.wait_for_function(f"() => ({CAMERA})()[0] < -11")
+    own_page.wait_for_function(
+        "() => !!document.querySelector('iframe').contentWindow.__viserMutable"
+        ".nodeRefFromName['/a/l']"
+    )
+    wait_for_view(own_page)
+    assert own_page.evaluate(CAMERA)[0] < -11
 
 
 # Problems of the labels on the picture, once all labels have been laid out again.
@@ -145,15 +186,15 @@ def test_initial_camera_is_fitted_and_a_narrower_window_moves_it_back(page: Page
     open_view(page, lab)
     first = page.evaluate(CAMERA)
     page.get_by_role("button", name="Camera: Whole").click()
-    page.wait_for_function(STANDS_STILL, timeout=LONG_MS)
-    page.wait_for_function(IS_THERE, arg=first, timeout=LONG_MS)
+    page.wait_for_function(STANDS_STILL)
+    page.wait_for_function(IS_THERE, arg=first)
     page.set_viewport_size({"width": 1130, "height": 1200})
-    page.wait_for_function(f"() => ({CAMERA})()[2] < {1.2 * first[2]}", timeout=LONG_MS)
+    page.wait_for_function(f"() => ({CAMERA})()[2] < {1.2 * first[2]}")
 
 
 def wait_for_push(page: Page, lab: Lab) -> None:
     """Wait until the link is pushed."""
-    for _ in range(LONG_MS // 100):
+    for _ in range(PATIENCE_MS // 100):
         if any(load["active"] for load in lab.read()["loads"]):
             return
         page.wait_for_timeout(100)
@@ -166,7 +207,7 @@ def wait_for_end(page: Page, lab: Lab) -> int:
     If the page sends nothing in time, the server ends its push, and the page starts the push again.
     """
     labels: list[str] = []
-    for _ in range(LONG_MS // 100):
+    for _ in range(PATIENCE_MS // 100):
         state = lab.read()
         events = (event["label"] for event in state["events"])
         labels = [label for label in events if label.startswith("Push")]
@@ -181,8 +222,8 @@ def wait_for_end(page: Page, lab: Lab) -> int:
 def test_link_is_pushed_with_the_mouse_and_by_keys(view: Page, lab: Lab) -> None:
     page = view
     page.get_by_role("button", name="Camera: Front").click()
-    page.wait_for_function(f"() => ({CAMERA})()[2] < -8", timeout=LONG_MS)
-    page.wait_for_function(STANDS_STILL, timeout=LONG_MS)
+    page.wait_for_function(f"() => ({CAMERA})()[2] < -8")
+    page.wait_for_function(STANDS_STILL)
     lab.client.post(lab.session + "/start").raise_for_status()
     page.get_by_role("button", name="Push").click()
     layer = page.get_by_role("button", name=re.compile("Drag to push"))
@@ -225,12 +266,12 @@ def test_names_of_the_parts_are_shown_in_the_requesting_window_only(view: Page) 
         .__viserMutable && document.querySelector("iframe").contentWindow
         .__viserSceneTree.getState()[name]?.visibility"""
     names = page.get_by_role("button", name="Names of the parts")
-    page.wait_for_function(f"() => ({seen})('/a/c/p/n4') === false", timeout=LONG_MS)
+    page.wait_for_function(f"() => ({seen})('/a/c/p/n4') === false")
     page.keyboard.press("n")
     expect(names).to_have_attribute("aria-pressed", "true")
-    page.wait_for_function(f"() => ({seen})('/a/c/p/n4')", timeout=LONG_MS)
+    page.wait_for_function(f"() => ({seen})('/a/c/p/n4')")
     names.click()
-    page.wait_for_function(f"() => !({seen})('/a/c/p/n4')", timeout=LONG_MS)
+    page.wait_for_function(f"() => !({seen})('/a/c/p/n4')")
 
 
 def test_low_graphics_are_remembered(view: Page) -> None:

@@ -45,8 +45,16 @@ export const LAYOUT: readonly Entry[] = [
   { name: "grow rigid", use: "In a line: takes the rest; never shrinks.", sample: null },
   { name: "end start", use: "In a line: moves to the end; moves the others there.", sample: null },
   { name: "wide block", use: "All columns of a grid; the whole width.", sample: null },
-  { name: "fill", use: "Over all of the nearest positioned element.", sample: null },
-  { name: "scroll", use: "Scrolls horizontally.", sample: null },
+  {
+    name: "fill over contents",
+    use: "Over the nearest positioned element; over its middle; no box of its own.",
+    sample: null,
+  },
+  {
+    name: "scroll scroller",
+    use: "Scrolls horizontally; fills its place and scrolls.",
+    sample: null,
+  },
   { name: "divided", use: "A line above it.", sample: words("divided") },
 ];
 
@@ -55,14 +63,19 @@ export const TEXT: readonly Entry[] = [
   { name: "small tiny strong", use: "Size and weight.", sample: words("small strong") },
   { name: "tabular number", use: "Digits of equal width; right-aligned.", sample: words("number") },
   { name: "nowrap breaks clip", use: "One line; breaks anywhere; cut.", sample: words("clip") },
+  { name: "roomy", use: "Shown only on a wide screen.", sample: words("roomy") },
   { name: "hint unit", use: "Explanation; unit of a number.", sample: words("hint") },
   { name: "problem as-written", use: "Error; output of a program.", sample: words("problem") },
 ];
 
 export const PARTS: readonly Entry[] = [
-  { name: "surface", use: "Panels, cards, tables on the background.", sample: words("surface") },
+  { name: "surface card", use: "Panels, tables; with padding.", sample: words("surface card") },
   { name: "sunken", use: "A drawing or a group on its own ground.", sample: words("sunken") },
-  { name: "floating", use: "Dialogs, popups, notices.", sample: <h2 class="floating">Title</h2> },
+  {
+    name: "floating toast",
+    use: "Dialogs, popups; a notice over the page.",
+    sample: <h2 class="floating">Title</h2>,
+  },
   { name: "bar", use: "A row across the page; is-foot at the bottom.", sample: boxes("bar") },
   {
     name: "button",
@@ -129,7 +142,7 @@ export const PARTS: readonly Entry[] = [
     ),
   },
   {
-    name: "table metrics metrics-group all-metrics present",
+    name: "table metrics",
     use: "The component Table; metrics has numbers on the right.",
     sample: (
       <Table heads={["Law", "Error, °"]} look="metrics" label="Sample">
@@ -158,6 +171,11 @@ export const PARTS: readonly Entry[] = [
     sample: <p class="note is-warn">The torque is limited.</p>,
   },
   {
+    name: "banner",
+    use: "Across the page: is-accent, is-bad.",
+    sample: <p class="banner is-accent">A new version is installed.</p>,
+  },
+  {
     name: "menu",
     use: "Links and buttons, one per line.",
     sample: (
@@ -169,9 +187,14 @@ export const PARTS: readonly Entry[] = [
   { name: "tag", use: "A word that classifies.", sample: <span class="tag">example</span> },
   { name: "dot", use: "Color of a lane.", sample: <span class="dot" /> },
   {
-    name: "bullets",
-    use: "A list with its marks.",
+    name: "bullets prose",
+    use: "A list with its marks; text with lists.",
     sample: <ul class="bullets">{<li>Load</li>}</ul>,
   },
-  { name: "drawing grid", use: "An SVG as wide as its place; grid for its lines.", sample: null },
+  {
+    name: "drawing grid outline solid",
+    use: "An SVG as wide as its place; its shapes.",
+    sample: null,
+  },
+  { name: "chart grab", use: "The place of a chart of curves; it is dragged.", sample: null },
 ];

@@ -9,8 +9,7 @@ from playwright.sync_api import Page, Route, expect
 
 from svsa_server.problems import MEDIA_TYPE
 from tests.browser.runs.recorded import find_replay
-from tests.browser.settled import until
-from tests.browser.test_page import WORKER_MS
+from tests.browser.settled import expect_recorded, record_statuses, until
 from tests.lab import Lab
 from tests.waiting import follow_recording
 
@@ -31,7 +30,7 @@ def test_slow_replay_is_reported(page: Page, lab: Lab, runs: tuple[str, str]) ->
     until(page, lambda: held)
     expect(find_replay(page).get_by_role("button", name="Play")).to_have_count(0)
     held[0].continue_()
-    expect(find_replay(page).get_by_role("button", name="Play")).to_be_visible(timeout=WORKER_MS)
+    expect(find_replay(page).get_by_role("button", name="Play")).to_be_visible()
     expect(waiting).to_have_count(0)
 
 
@@ -67,7 +66,7 @@ def test_link_opens_the_same_run_at_the_same_time(
 ) -> None:
     page.goto(f"{lab.url}/?run={runs[0]}&t=5.25")
     time = find_replay(page).get_by_role("status", name="Time")
-    expect(time).to_have_text("5.25 s", timeout=WORKER_MS)
+    expect(time).to_have_text("5.25 s")
     plots = find_replay(page).get_by_role("region", name="Plots", exact=True)
     over = "one => [...one.children].at(-1).getBoundingClientRect().bottom - "
     over += "one.getBoundingClientRect().bottom"
@@ -85,7 +84,8 @@ def test_link_opens_the_same_run_at_the_same_time(
     page.get_by_role("button", name="Light theme").click()
 
     page.context.grant_permissions(["clipboard-read", "clipboard-write"])
+    record_statuses(page)
     page.get_by_role("button", name="Copy link").press("Enter")
-    expect(page.get_by_role("status").filter(has_text="Copied")).to_be_attached()
+    expect_recorded(page, "Copied")
     assert page.evaluate("() => navigator.clipboard.readText()") == page.url
     assert read_moment(page) == 2.5

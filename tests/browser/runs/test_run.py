@@ -7,7 +7,7 @@ import pytest
 from playwright.sync_api import Page, Response, Route, expect
 
 from tests.browser.runs.recorded import BOTH, STIFF, is_change
-from tests.browser.test_page import WORKER_MS, show_all_controls
+from tests.browser.test_page import show_all_controls
 from tests.lab import Lab
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
@@ -58,7 +58,7 @@ def test_branch_is_a_paused_private_session_at_the_selected_time(
 ) -> None:
     page.goto(f"{lab.url}/?run={runs[0]}&t=6")
     page.get_by_role("button", name="Branch at 6 s").press("Enter")
-    expect(page.get_by_text("Private session.")).to_be_visible(timeout=WORKER_MS)
+    expect(page.get_by_text("Private session.")).to_be_visible()
     session = parse_qs(urlsplit(page.url).query)["session"][0]
     path = f"/api/v1/sessions/{session}"
     state = lab.client.get(path).json()
@@ -95,7 +95,7 @@ def test_run_is_exported_in_every_format(page: Page, lab: Lab, runs: tuple[str, 
     for kind in ("CSV", "Parquet", "MAT", "MCAP", "HTML"):
         page.get_by_text("Export", exact=True).click()
         role = "button" if kind == "HTML" else "link"
-        with page.expect_download(timeout=WORKER_MS) as download:
+        with page.expect_download() as download:
             page.get_by_role(role, name=re.compile(f"^{kind}")).click()
         assert download.value.suggested_filename.endswith("." + kind.lower())
         assert download.value.path().stat().st_size > 1000

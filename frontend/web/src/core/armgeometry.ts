@@ -5,22 +5,42 @@ export interface Point {
   y: number;
 }
 
-/** Lengths of the links, m. */
-export interface Lengths {
-  length1: number;
-  length2: number;
-}
+/** Lengths of the links from joint 1 on, m. */
+export type Lengths = readonly number[];
+
+/** The lengths of the links of an arm, m. */
+export const lengthsOf = ({ chain }: { chain: readonly { length_m: number }[] }): Lengths =>
+  chain.map(({ length_m: length }) => length);
+
+const sum = (values: readonly number[]): number =>
+  values.reduce((total, value) => total + value, 0);
 
 /** Largest distance of the tip from joint 1, m. */
-export const reachOf = ({ length1, length2 }: Lengths): number => length1 + length2;
+export const reachOf = (lengths: Lengths): number => sum(lengths);
 
-/** Joint 2 and the tip at these angles (rad), m. */
-export function placeLinks({ length1, length2 }: Lengths, q1: number, q2: number) {
-  const elbow = { x: length1 * Math.sin(q1), y: -length1 * Math.cos(q1) };
-  const p = q1 + q2;
-  const tip = { x: elbow.x + length2 * Math.sin(p), y: elbow.y - length2 * Math.cos(p) };
-  return { elbow, tip };
+/** The joints after joint 1, and the tip, at these angles of the joints (rad), m. */
+export function placeLinks(lengths: Lengths, q: readonly number[]): Point[] {
+  let [x, y, p] = [0, 0, 0];
+  return lengths.map((length, index) => {
+    p += q[index] as number;
+    x += length * Math.sin(p);
+    y -= length * Math.cos(p);
+    return { x, y };
+  });
 }
+
+/** The tip at these angles of the joints (rad), m. */
+export const placeTip = (lengths: Lengths, q: readonly number[]): Point =>
+  placeLinks(lengths, q).at(-1) as Point;
+
+/** Each two elements. */
+function pairsOf<T>(values: readonly T[]): [T, T][] {
+  return values.flatMap((first, index) =>
+    values.slice(index + 1).map((second): [T, T] => [first, second]),
+  );
+}
+
+const sumOfPairs = (lengths: Lengths): number => sum(pairsOf(lengths).map(([a, b]) => a * b));
 
 /** Force for a unit displacement in the stiffest direction, and across it, N/m. */
 export interface StiffnessEllipse {
@@ -30,33 +50,36 @@ export interface StiffnessEllipse {
   angle: number;
 }
 
-/** A smaller |sin q2| counts as straight or folded, where the stiffness is infinite. */
+/** A smaller sine between two links counts as straight or folded, where the stiffness is infinite. */
 const STRAIGHT = 1e-6;
 
 /**
- * The principal axes of K = J⁻ᵀ diag(σ1, σ2) J⁻¹, without the part of the gravity; null for a
- * straight or folded arm, and for unknown values.
+ * The principal axes of K = (J diag(1/σ) Jᵀ)⁻¹, without the part of the gravity; null for a straight
+ * or folded arm, for one link, and for unknown values.
  */
 export function ellipseOf(
-  { length1, length2 }: Lengths,
-  [q1, q2]: readonly [number, number],
-  stiffness: readonly [number, number],
+  lengths: Lengths,
+  q: readonly number[],
+  stiffness: readonly number[],
 ): StiffnessEllipse | null {
-  const determinant = length1 * length2 * Math.sin(q2);
-  if (!(Math.abs(determinant) >= STRAIGHT * length1 * length2)) return null;
-  const p = q1 + q2;
-  const across = { x: length2 * Math.sin(p), y: -length2 * Math.cos(p) };
-  const rows = [
-    across,
-    { x: -length1 * Math.sin(q1) - across.x, y: length1 * Math.cos(q1) - across.y },
-  ] as const;
-  let [kxx, kxy, kyy] = [0, 0, 0];
-  rows.forEach(({ x, y }, index) => {
-    const scale = (stiffness[index] as number) / determinant ** 2;
-    kxx += scale * x * x;
-    kxy += scale * x * y;
-    kyy += scale * y * y;
-  });
+  const joints = [{ x: 0, y: 0 }, ...placeLinks(lengths, q)];
+  const tip = joints.pop() as Point;
+  // A joint moves the tip at right angles to the line from the joint.
+  const columns = joints.map(({ x, y }, index) => ({
+    x: y - tip.y,
+    y: tip.x - x,
+    sigma: stiffness[index] as number,
+  }));
+  const areas = pairsOf(columns).map(([a, b]) => ({
+    area: a.x * b.y - a.y * b.x,
+    product: a.sigma * b.sigma,
+  }));
+  const straight = STRAIGHT * sumOfPairs(lengths);
+  if (!(Math.hypot(...areas.map(({ area }) => area)) > straight)) return null;
+  const determinant = sum(areas.map(({ area, product }) => area ** 2 / product));
+  const kxx = sum(columns.map(({ y, sigma }) => (y * y) / sigma)) / determinant;
+  const kyy = sum(columns.map(({ x, sigma }) => (x * x) / sigma)) / determinant;
+  const kxy = -sum(columns.map(({ x, y, sigma }) => (x * y) / sigma)) / determinant;
   const mean = (kxx + kyy) / 2;
   const radius = Math.hypot((kxx - kyy) / 2, kxy);
   if (!Number.isFinite(mean)) return null;
@@ -67,7 +90,9 @@ export function ellipseOf(
   };
 }
 
-/** Half axis of the greatest stiffness of the joints over l1 l2, and the longest one drawn. */
+/** Half axis of the greatest stiffness of the joints over the products of each two lengths, and the
+ * longest one drawn.
+ */
 const FULL_AXIS = 0.32;
 const MOST_AXIS = 0.5;
 
@@ -81,7 +106,7 @@ export function axesOf(
   most: number,
 ): [number, number] {
   const reach = reachOf(lengths);
-  const full = (FULL_AXIS * reach) / Math.sqrt(most / (lengths.length1 * lengths.length2));
+  const full = (FULL_AXIS * reach) / Math.sqrt(most / sumOfPairs(lengths));
   const axis = (k: number) => Math.min(full * Math.sqrt(k), MOST_AXIS * reach);
   return [axis(greatest), axis(least)];
 }

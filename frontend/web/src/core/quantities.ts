@@ -1,60 +1,17 @@
 /** The numbers of the API as users read and type them: one name and one unit per field. */
-import numbers from "numbers:SinePosition ConstantPosition SineStiffness ConstantStiffness ObserverBandwidth ConstantLoad";
+import numbers from "numbers:SinePosition ConstantPosition SineStiffness ConstantStiffness ObserverBandwidth ConstantLoad TipMass";
+import { type Quantity, quantityOfSchema, type Schema } from "./schema";
 import { t } from "./text/t";
-import { DEGREES_PER_RADIAN, formatFixed } from "./units";
-
-export interface Quantity {
-  label: string;
-  unit: string;
-  /** Factor from the API's SI unit to the unit on screen. */
-  factor?: number;
-  /** Bounds of the API, in the unit on screen. */
-  min?: number;
-  max?: number;
-}
-
-const MILLI_LIMIT = 0.1;
-
-/** A number as the API describes it. */
-interface Described {
-  symbol: string;
-  meaning: string;
-  unit: string;
-  low: number | null;
-  high: number | null;
-}
-
-/** Label, unit, bounds and factor on screen: angles in degrees, small numbers in thousandths. */
-export function quantityOfParameter(parameter: Described): Quantity {
-  const { low, high } = parameter;
-  const quantity = nameQuantity(parameter);
-  const { factor = 1 } = quantity;
-  return {
-    ...quantity,
-    ...(low !== null && { min: low * factor }),
-    ...(high !== null && { max: high * factor }),
-  };
-}
-
-function nameQuantity({ symbol, meaning, unit, high }: Described): Quantity {
-  const label = symbol || meaning;
-  if (unit === "1" || unit === "") return { label, unit: "" };
-  const isSmall = (unit === "s" || unit === "rad") && high !== null && high <= MILLI_LIMIT;
-  if (isSmall) return { label, unit: `m${unit}`, factor: 1e3 };
-  if (unit === "rad" || unit === "rad·s") {
-    return { label, unit: unit.replace("rad", "deg"), factor: DEGREES_PER_RADIAN };
-  }
-  return { label, unit };
-}
+import { formatFixed } from "./units";
 
 /** A number of the API's schema; several requests have the same bounds for a name. */
-const number = (name: string, label: string): Quantity => {
-  const { unit = "", low = null, high = null } = numbers[name] ?? {};
-  return quantityOfParameter({ symbol: label, meaning: "", unit, low, high });
-};
-const plain = (label: string, unit = ""): Quantity => ({ label, unit });
+const number = (name: string, title: string): Schema => ({ ...numbers[name], title });
+const plain = (title: string, unit = ""): Schema => ({ title, unit });
+const poles = (group: "position" | "stiffness") =>
+  t("design.summary", { group: t(`design.${group}`) });
 
-export const QUANTITIES = {
+/** Fields by their names in the API, with the labels of the page. */
+export const FIELDS = {
   amplitude_rad: number("amplitude_rad", t("motion.amplitude")),
   offset_rad: number("offset_rad", t("motion.offset")),
   position_rad: number("position_rad", t("motion.position")),
@@ -63,25 +20,17 @@ export const QUANTITIES = {
   offset_nm_per_rad: number("offset_nm_per_rad", t("stiffness.mean")),
   amplitude_nm_per_rad: number("amplitude_nm_per_rad", t("stiffness.amplitude")),
   stiffness: number("stiffness_nm_per_rad", t("stiffness.throughout")),
-  position_poles_rad_per_s: plain(
-    t("design.summary", { group: t("design.position") }),
-    t("design.unit"),
-  ),
-  stiffness_poles_rad_per_s: plain(
-    t("design.summary", { group: t("design.stiffness") }),
-    t("design.unit"),
-  ),
-  position_coefficients: plain(t("design.summary", { group: t("design.position") })),
-  stiffness_coefficients: plain(t("design.summary", { group: t("design.stiffness") })),
+  position_poles_rad_per_s: plain(poles("position"), t("design.unit")),
+  stiffness_poles_rad_per_s: plain(poles("stiffness"), t("design.unit")),
+  position_coefficients: plain(poles("position")),
+  stiffness_coefficients: plain(poles("stiffness")),
   bandwidth_rad_per_s: number("bandwidth_rad_per_s", t("observer.all")),
   torque_nm: number("torque_nm", t("load.torque")),
+  mass_kg: number("mass_kg", t("arm.mass")),
   duration_s: plain(t("load.duration"), "s"),
   factor: plain(t("transport.speed")),
   by: plain(t("control.name")),
-} satisfies Record<string, Quantity>;
-
-/** Properties that a control passes to its field. */
-export const quantityProps = (name: keyof typeof QUANTITIES): Quantity => QUANTITIES[name];
+} satisfies Record<string, Schema>;
 
 /** Symbols and units of the parameters of an SVSA. */
 export const PARAMETERS = {
@@ -103,16 +52,14 @@ export function quantityOf(path: string): Quantity | null {
   if (name === undefined) return null;
   if ((section === "actuator" || section === "nominal") && isKey(name, PARAMETERS)) {
     const [symbol, unit] = PARAMETERS[name];
-    return plain(
-      t("realism.cell", {
-        name: `${symbol} ${t(`realism.names.${name}`)}`,
-        column: t(`realism.${section}`),
-      }),
-      unit,
-    );
+    const label = t("realism.cell", {
+      name: `${symbol} ${t(`realism.names.${name}`)}`,
+      column: t(`realism.${section}`),
+    });
+    return { label, unit };
   }
-  if (!isKey(name, QUANTITIES)) return null;
-  const quantity = QUANTITIES[name];
+  if (!isKey(name, FIELDS)) return null;
+  const quantity = quantityOfSchema(FIELDS[name]);
   const channel =
     index !== undefined ? t("channels", { returnObjects: true })[Number(index)] : undefined;
   const isByChannel = name === "bandwidth_rad_per_s" || name === "torque_nm";

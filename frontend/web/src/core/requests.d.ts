@@ -1,9 +1,9 @@
 /** Made at each build: `requests.ts` of the page. */
 declare module "schema:*" {
-  const schema: import("./forms/schema").Schema;
+  const schema: import("./schema").Schema;
   export default schema;
 }
 declare module "numbers:*" {
-  const numbers: Readonly<Record<string, { unit: string; low?: number; high?: number }>>;
+  const numbers: Readonly<Record<string, import("./schema").Schema>>;
   export default numbers;
 }

@@ -48,7 +48,7 @@ const actionsOn = (bench: BenchState): readonly Action[] =>
 export function BenchButtons({ bench }: { bench: BenchState }) {
   const allowed = allowedCommands(bench, isSwitchHeld.value);
   return (
-    <fieldset class="line bench-buttons" disabled={!isLive.value} aria-label={t("bench.heading")}>
+    <fieldset class="row tight" disabled={!isLive.value} aria-label={t("bench.heading")}>
       {actionsOn(bench).map(({ name, label, hint, send }) => {
         const isAllowed = allowed[name] && (name === "stop" || mayCommand.value);
         return (

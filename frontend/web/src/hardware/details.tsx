@@ -21,7 +21,7 @@ function Problems({ problems }: { problems: readonly string[] }) {
       <h2 class="bad">
         <span aria-hidden="true">▲</span> {t("bench.problems")}
       </h2>
-      <ul class="bullets">
+      <ul class="bullets cells">
         {problems.map((problem) => (
           <li key={problem}>{problem}</li>
         ))}
@@ -50,7 +50,7 @@ function Age({ seconds, level }: { seconds: number; level: Freshness }) {
 function Drives({ bench }: { bench: BenchState }) {
   const { ages_s: ages, current_a: currents, supervised } = bench;
   return (
-    <section class="surface small bench-card is-drives" aria-label={t("bench.drives.heading")}>
+    <section class="surface small bench-card" aria-label={t("bench.drives.heading")}>
       <h2>{t("bench.drives.heading")}</h2>
       <table>
         <thead>
@@ -95,7 +95,7 @@ function Drives({ bench }: { bench: BenchState }) {
 function Calibration({ bench }: { bench: BenchState }) {
   const { calibrated_by: by, calibrated_on: on } = bench;
   return (
-    <section class="surface small bench-card is-calibration" aria-label={t("bench.calibration")}>
+    <section class="surface small bench-card" aria-label={t("bench.calibration")}>
       <h2>{t("bench.calibration")}</h2>
       {on === null ? (
         <p class="bad">

@@ -35,7 +35,7 @@ export function EnduranceNote({ load }: { load: Load | null }) {
   }, [question]);
   const answer = prediction !== null && prediction.question === question ? prediction.answer : null;
   return (
-    <div class="small strong endurance" role="status" hidden={answer === null}>
+    <div class="small strong tone is-warn" role="status" hidden={answer === null}>
       {answer !== null && (
         <details>
           <summary>

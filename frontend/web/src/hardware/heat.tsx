@@ -33,16 +33,16 @@ export function HeatWarning({ bench: { motors } }: { bench: BenchState }) {
   const held = (motors ?? []).map((motor, index) => ({ motor, index }));
   const now = isLive.value ? held.filter(({ motor }) => motor.limited_by_heat) : [];
   return (
-    <div class="heat-warnings">
+    <div>
       {now.map(({ motor, index }) => (
-        <p key={index}>
+        <p key={index} class="banner is-bad bad">
           <span aria-hidden="true">▲</span>{" "}
           <strong role="alert">
             {t("bench.heat.warningTitle", {
               motor: t("bench.drives.names", { returnObjects: true })[index] as string,
             })}
           </strong>{" "}
-          <span class="heat-why">{t("bench.heat.warning", describeHeat(motor))}</span>
+          {t("bench.heat.warning", describeHeat(motor))}
         </p>
       ))}
     </div>

@@ -43,7 +43,7 @@ export function HoldRow({ bench: { status } }: { bench: BenchState }) {
     <section class="bar is-foot hold" aria-label={t("hold.heading")}>
       <button
         type="button"
-        class="rigid strong hold-button"
+        class="button rigid hold-button"
         aria-pressed={held}
         aria-describedby={id}
         aria-keyshortcuts="d"

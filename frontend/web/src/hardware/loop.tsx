@@ -49,7 +49,7 @@ function Lateness({ loop }: { loop: LoopState }) {
             </title>
           </rect>
         ))}
-        <path class="lateness-ground" d={`M0 ${HEIGHT}h${WIDTH}`} />
+        <path class="grid" d={`M0 ${HEIGHT}h${WIDTH}`} />
         {edges.map(
           (edge, index) =>
             index % shownEvery === shownEvery - 1 && (
@@ -131,7 +131,7 @@ export function Loop({ loop }: { loop: LoopState }) {
         </dl>
       </div>
       {loop.notes.length > 0 && (
-        <ul class="bullets hint bench-notes" aria-label={t("bench.loop.notes")}>
+        <ul class="row hint" aria-label={t("bench.loop.notes")}>
           {loop.notes.map((note) => (
             <li key={note}>{note}</li>
           ))}

@@ -11,19 +11,28 @@ import { isSwitchHeld } from "./hold";
 import { HoldRow } from "./holdrow";
 import { adviceFor, isStarting, needsDetails, STAGES, stagePosition } from "./status";
 
+const STAGE_SIGNS = { done: "✓", here: "●", ahead: "○" } as const;
+const STAGE_LOOKS = {
+  done: "tone is-accent",
+  here: "tone is-accent strong",
+  ahead: "muted",
+} as const;
+
 /** OFF → RUN as one line; the state is shown by icon and text, not by color alone. */
 function Progress({ status }: { status: BenchState["status"] | null }) {
   return (
-    <ol class={`stages is-${status ?? "unknown"}`} aria-label={t("bench.stages")}>
+    <ol class="line joined tiny stages" aria-label={t("bench.stages")}>
       {STAGES.map((stage) => {
         const place = stagePosition(stage, status);
         return (
           <li
             key={stage}
-            class={`is-${place}`}
+            class={STAGE_LOOKS[place]}
             aria-current={place === "here" ? "step" : undefined}
           >
-            <span class="tiny stage-sign" aria-hidden="true" />
+            <span class="block" aria-hidden="true">
+              {STAGE_SIGNS[place]}
+            </span>
             {t(`bench.stage.${stage}`)}
             {place === "done" && <span class="visually-hidden"> {t("bench.done")}</span>}
           </li>
@@ -44,14 +53,14 @@ export function BenchStrip({ bench }: { bench: BenchState }) {
   const advice = t(`bench.advice.${adviceFor(bench, isSwitchHeld.value)}`);
   return (
     <section class={`bench is-${kind}`} aria-label={t("bench.heading")}>
-      <div class="line bench-strip">
-        <p class="bench-mark" title={`${bench.name}, ${bench.interface}`}>
+      <div class="row bench-strip">
+        <p class={`corner-mark is-${kind} bench-mark`} title={`${bench.name}, ${bench.interface}`}>
           <strong>{t(`mark.${kind}.name`)}</strong>
           <small>{t(`mark.${kind}.means`)}</small>
         </p>
         <Progress status={isLive.value && !isStarting(bench) ? bench.status : null} />
         <p class="small bench-advice" role="status">
-          <strong>{isLive.value ? status : t("bench.unknown")}</strong>
+          <strong class="block">{isLive.value ? status : t("bench.unknown")}</strong>
           <span>{isLive.value ? advice : t("bench.lastHeard", { state: status })}</span>
           {isLive.value && bench.loop.step !== null && (
             <span aria-live="off">

@@ -3,7 +3,7 @@ import { Plots } from "../core/plots/plots";
 import { loginCount } from "../core/state/access";
 import { isArm } from "../core/state/arm";
 import { phase, session } from "../core/state/session";
-import { t } from "../core/text/t";
+import { languageOf, t } from "../core/text/t";
 import { BenchStrip } from "../hardware/strip";
 import { TipPlane } from "../lab/arm/plane";
 import { DesignPanel } from "../lab/design/panel";
@@ -15,7 +15,7 @@ import { hasWebGl } from "../lab/scene/schematic";
 import { CallsDrawer } from "../lab/script/drawer";
 import { isOpen as isTuning } from "../lab/tuning/tuning";
 import { PrivateBanner } from "../runs/list/origin";
-import { isLabShown, isRunsPlace, place } from "../runs/list/place";
+import { isLabShown, isRunsPlace, type Place, place } from "../runs/list/place";
 import { Runs } from "../runs/list/runs";
 import { ClassPanel } from "../teaching/classroom/panel";
 import { hasFreeSettings } from "../teaching/course/lesson";
@@ -45,6 +45,13 @@ function Views({ state, isBasic }: { state: SessionState; isBasic: boolean }) {
   );
 }
 
+/** The texts of the page of an address. */
+function areaOf(at: Place): Parameters<typeof languageOf>[0] {
+  if (isRunsPlace(at)) return "runs";
+  if (at.kind === "learn") return at.exercise === "" ? "learning" : "session";
+  return at.kind === "lab" ? "session" : at.kind;
+}
+
 /** The page of the current address. */
 function Here() {
   const state = session.value;
@@ -61,7 +68,7 @@ function Here() {
   ) : at.kind === "learn" && at.exercise === "" ? (
     <LearnPage />
   ) : state === null ? (
-    <main class="muted waiting-page">{phase.value !== "ended" && t("connection.waiting")}</main>
+    <main class="empty">{phase.value !== "ended" && t("connection.waiting")}</main>
   ) : (
     <main class={at.kind === "learn" ? "lab has-lesson" : isBasic.value ? "lab is-basic" : "lab"}>
       <Views state={state} isBasic={isBasic.value} />
@@ -69,7 +76,7 @@ function Here() {
       <LoadButton state={state} />
       <Plots isBasic={isBasic.value} />
       {at.kind === "learn" ? (
-        <div class="column lesson-side">
+        <div class="column scroller lesson-side" lang={languageOf("lesson")}>
           <Lesson name={at.exercise} />
           {hasFreeSettings.value && <Controls state={state} />}
         </div>
@@ -105,7 +112,9 @@ export function App() {
       <Banners />
       <HelpSheet />
       {phase.value === "locked" && <Login />}
-      <Here key={loginCount.value} />
+      <div class="contents" lang={languageOf(areaOf(at))}>
+        <Here key={loginCount.value} />
+      </div>
       <DesignPanel />
       {isTuning.value && state !== null && <LazyPage name="tuning" isPanel />}
       <IdentificationPanel />

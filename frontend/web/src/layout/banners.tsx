@@ -17,9 +17,9 @@ function CommandStatus({ now }: { now: NonNullable<typeof commandStatus.value> }
   const isPending = now === "asking";
   return (
     <Banner
-      look={isPending ? "is-lost" : "is-news"}
+      look={isPending ? "is-bad" : "is-accent"}
       role="alert"
-      sign={isPending ? "" : "✓"}
+      sign={isPending ? "◌" : "✓"}
       title={isPending ? t("connection.askingTitle") : t("connection.carriedOutTitle")}
       words={isPending ? t("connection.askingText") : t("connection.carriedOutText")}
     />
@@ -32,7 +32,11 @@ function NewInstance() {
     isNewInstance.value = false;
   };
   return (
-    <Banner look="is-news" title={t("connection.anotherTitle")} words={t("connection.anotherText")}>
+    <Banner
+      look="is-accent"
+      title={t("connection.anotherTitle")}
+      words={t("connection.anotherText")}
+    >
       <button type="button" class="quiet" aria-label={t("runs.dismiss")} onClick={close}>
         ✕
       </button>
@@ -51,21 +55,21 @@ export function Banners() {
       {commandStatus.value !== null && <CommandStatus now={commandStatus.value} />}
       {isLost.value && (
         <Banner
-          look="is-lost"
+          look="is-bad"
           role="alert"
-          sign=""
+          sign="◌"
           title={isBlocked ? t("connection.blockedTitle") : t("connection.lostTitle")}
           words={isBlocked ? t("connection.blockedText") : t("connection.lostText")}
         />
       )}
       {isNewInstance.value && !isLost.value && <NewInstance />}
       {fault && (
-        <div class="row banner is-fault" role="alert">
-          <span class="banner-sign" aria-hidden="true">
+        <div class="row banner is-bad" role="alert">
+          <span class="bad" aria-hidden="true">
             ▲
           </span>
           <div class="grow">
-            <strong>{t("fault.title", { time: formatFixed(fault.time_s, 2) })}</strong>{" "}
+            <strong class="bad">{t("fault.title", { time: formatFixed(fault.time_s, 2) })}</strong>{" "}
             {fault.message}
             <FaultAdvice fault={fault} />
           </div>
@@ -81,7 +85,7 @@ export function Banners() {
       )}
       {recording?.state === "failed" && (
         <Banner
-          look="is-fault"
+          look="is-bad"
           role="alert"
           sign="▲"
           title={t("recording.failed")}

@@ -22,7 +22,7 @@ export function AllControlsSwitch() {
       onClick={toggleAllControls}
     >
       {t("allControls.all")}
-      <span class="all-controls-word"> {t("allControls.controls")}</span>
+      <span class={areAllControlsOn.value ? "roomy" : ""}> {t("allControls.controls")}</span>
     </button>
   );
 }

@@ -1,8 +1,7 @@
 import type { LaneRow, SessionState } from "../core/api/types";
 import { lineStyleOfLane } from "../core/plots/linestyles";
 import { type MetricsColumn, MetricsTable } from "../core/plots/metricstable";
-import { isArm } from "../core/state/arm";
-import { LANES_OF_ARM } from "../core/state/joints";
+import { jointCount } from "../core/state/arm";
 import { isLive } from "../core/state/session";
 import { t } from "../core/text/t";
 import { formatNumber, toDegrees } from "../core/units";
@@ -11,10 +10,7 @@ import { CurrentError } from "./currenterror";
 import { bestIn, hasEnded, recoveryNameOf, recoveryOf, sinceOf } from "./window";
 
 const lookOf = ({ segments, lane }: LaneRow) =>
-  lineStyleOfLane(
-    segments.at(-1)?.line_style ?? 0,
-    lane === 1 || (isArm.value && lane <= LANES_OF_ARM),
-  );
+  lineStyleOfLane(segments.at(-1)?.line_style ?? 0, lane <= jointCount.value);
 
 const degrees = (rad: number | undefined) =>
   formatNumber(rad === undefined ? null : toDegrees(rad), 3, 3);

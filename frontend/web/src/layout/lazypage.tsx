@@ -27,7 +27,7 @@ export function LazyPage({ name, isPanel = false }: { name: keyof Pages; isPanel
   return isPanel ? (
     <ErrorLine>{reason}</ErrorLine>
   ) : (
-    <main class="muted waiting-page" aria-live="assertive">
+    <main class="empty" aria-live="assertive">
       {reason}
     </main>
   );

@@ -34,7 +34,7 @@ export function Login() {
   return (
     <dialog
       ref={dialog}
-      class="floating login"
+      class="floating stack loose login"
       aria-labelledby={`${id}-title`}
       onCancel={(event) => event.preventDefault()}
     >

@@ -72,7 +72,7 @@ export function Tabs() {
   return (
     <nav class="line joined rigid tabs" aria-label={t("pages.tabs")}>
       {GROUPS.map((group) => (
-        <ul key={group[0]} class="line">
+        <ul key={group[0]} class="line menu">
           {group
             .filter((page) => shownPages.value.includes(page))
             .map((page) =>
@@ -99,7 +99,7 @@ export function EvaluationTabs() {
   if (!EVALUATION.includes(here)) return null;
   return (
     <nav class="bar rigid tabs" aria-label={t("pages.evaluation")}>
-      <ul class="row">
+      <ul class="row menu">
         {EVALUATION.map((page) => (
           <Tab key={page} page={page} isHere={page === here} />
         ))}
@@ -112,7 +112,7 @@ function Entry({ name }: { name: "actuators" | "tune" | "guide" | "docs" }): Com
   return (
     <>
       <strong>{t(`pages.names.${name}`)}</strong>
-      <small>{t(`pages.hints.${name}`)}</small>
+      <small class="block">{t(`pages.hints.${name}`)}</small>
     </>
   );
 }
@@ -132,7 +132,7 @@ export function PagesMenu() {
       title={t("pages.openHint")}
       name={t("pages.open")}
       class="button"
-      popupClass="pages menu"
+      popupClass="menu"
     >
       {(close) => (
         <nav aria-label={t("pages.open")}>

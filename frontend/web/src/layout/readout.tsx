@@ -22,7 +22,7 @@ function Recovered({ recovery: { seconds, words } }: { recovery: Recovery }) {
 export function Readout({ state }: { state: SessionState }) {
   const { window, lanes } = state;
   const metrics = lanes[0]?.in_window;
-  const since = <span class="since">{t(`readout.since.${window.kind}`)}</span>;
+  const since = <span>{t(`readout.since.${window.kind}`)}</span>;
   const recovery = recoveryOf(metrics ?? null, window);
   return (
     <dl class="surface tabular readout" aria-label={t("readout.heading")}>

@@ -12,6 +12,7 @@ import { isLabShown, place } from "../runs/list/place";
 import { CornerMark } from "./marks";
 
 const STATUS_SIGNS = { running: "▶", paused: "❚❚", fault: "▲" } as const;
+const STATUS_TONES = { running: "is-good", paused: "muted", fault: "is-bad" } as const;
 const PHASE_SIGNS = {
   live: "●",
   slow: "◌",
@@ -32,7 +33,7 @@ function SessionPill({ state: { status, bench } }: { state: SessionState }) {
   if (!isLive.value) {
     return (
       <span
-        class="small strong nowrap pill is-unknown"
+        class="small strong nowrap tone is-warn pill"
         title={t("status.lastKnown", { state: word })}
       >
         <span aria-hidden="true">?</span>{" "}
@@ -41,7 +42,7 @@ function SessionPill({ state: { status, bench } }: { state: SessionState }) {
     );
   }
   return (
-    <span class={`small strong nowrap pill is-${status}`}>
+    <span class={`small strong nowrap tone pill ${STATUS_TONES[status]}`}>
       <span aria-hidden="true">{isStandingBench ? "○" : STATUS_SIGNS[status]}</span> {word}
     </span>
   );
@@ -58,7 +59,7 @@ function Cell({ name, hint, children, ...rest }: CellProps) {
   return (
     <div class={`rigid small nowrap status-cell ${rest.class ?? ""}`} title={hint}>
       <dt>{name}</dt>
-      <dd>{children}</dd>
+      <dd class="clip">{children}</dd>
     </div>
   );
 }
@@ -122,12 +123,8 @@ function RecordingCell({ state: { recording, rate_hz: rateHz } }: { state: Sessi
     );
   }
   return (
-    <Cell name={t("status.recording")} class={isOn ? "is-recording" : "is-idle"}>
-      {isOn && (
-        <span class="recording-sign" aria-hidden="true">
-          ●
-        </span>
-      )}{" "}
+    <Cell name={t("status.recording")} class={isOn ? "bad" : "is-idle"}>
+      {isOn && <span aria-hidden="true">●</span>}{" "}
       {isOn ? formatSeconds(recording.ticks / rateHz) : t("status.notRecording")}
     </Cell>
   );

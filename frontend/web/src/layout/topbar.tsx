@@ -46,12 +46,13 @@ export function TopBar() {
   return (
     <header class={isLab && !isBasic.value ? "bar topbar is-full" : "bar topbar"}>
       <h1>
-        {t("name")} <small>{isLab && state ? subtitleOf(state) : t("subtitle")}</small>
+        {t("name")}{" "}
+        <small class="roomy">{isLab && state ? subtitleOf(state) : t("subtitle")}</small>
       </h1>
       <Tabs />
       {isLab && state && (
         <div class="row topbar-controls">
-          <fieldset disabled={!isLive.value} aria-label={t("session")}>
+          <fieldset class="contents" disabled={!isLive.value} aria-label={t("session")}>
             {!isLesson && !isBasic.value && state.actuator.name === SVSA && !isArm.value && (
               <FigurePicker state={state} />
             )}

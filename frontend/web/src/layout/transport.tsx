@@ -24,12 +24,12 @@ function run(figure: Figure, { bench, configuration }: SessionState) {
   });
 }
 
-/** On a phone only the first figure has the word. */
+/** Only the first figure shows the word. */
 function FigureName({ figure }: { figure: Figure }) {
   const [word, number] = t(`figures.name.${figure}`).split(" ");
   return (
     <span>
-      <span class="figure-word">{word} </span>
+      <span class={figure === FIGURES[0] ? "" : "visually-hidden"}>{word} </span>
       {number}
     </span>
   );
@@ -37,8 +37,8 @@ function FigureName({ figure }: { figure: Figure }) {
 
 export function FigurePicker({ state }: { state: SessionState }) {
   return (
-    <fieldset class="line tight figures" disabled={!takesCommands.value}>
-      <legend class="hint">{t("figures.heading")}</legend>
+    <fieldset class="line tight" disabled={!takesCommands.value} aria-label={t("figures.heading")}>
+      <span class="hint roomy">{t("figures.heading")}</span>
       {FIGURES.map((figure) => (
         <button
           key={figure}
@@ -58,8 +58,8 @@ function SpeedPicker({ speed }: { speed: Speed }) {
   const isListed = speed === "max" || SPEEDS.includes(speed);
   const speeds = isListed ? SPEEDS : [...SPEEDS, speed].sort((a, b) => a - b);
   return (
-    <label class="line tight select" title={t("transport.speedHint")}>
-      <span class="hint select-label">{t("transport.speed")}</span>
+    <label class="line tight" title={t("transport.speedHint")}>
+      <span class="hint roomy">{t("transport.speed")}</span>
       <select
         disabled={!mayCommand.value}
         value={String(speed)}
@@ -85,7 +85,7 @@ function Stepper({ state }: { state: SessionState }) {
   const isReady = state.status === "paused" && mayCommand.value;
   const ticks = Math.max(1, Math.round((stepMs / 1000) * state.rate_hz));
   return (
-    <div class="line joined stepper">
+    <div class="line tight">
       <button
         type="button"
         class="button"
@@ -135,7 +135,7 @@ export function Transport({ state, isBasic }: { state: SessionState; isBasic: bo
           </>
         ) : (
           <>
-            <svg class="is-either" viewBox="0 0 24 12" aria-hidden="true">
+            <svg viewBox="0 0 24 12" aria-hidden="true">
               <path d={`${RUN}M14 1h3v10h-3zM19 1h3v10h-3z`} />
             </svg>
             <span class="visually-hidden">{t("transport.either")}</span>
@@ -165,7 +165,7 @@ export function RecordButton({ state }: { state: SessionState }) {
   if (!isLive.value) {
     return (
       <button type="button" class="button record" disabled>
-        <span class="record-dot" aria-hidden="true" />
+        <span class="dot" aria-hidden="true" />
         {recording === null ? t("recording.start") : t("recording.unknown")}
       </button>
     );
@@ -180,7 +180,7 @@ export function RecordButton({ state }: { state: SessionState }) {
         aria-keyshortcuts="r"
         onClick={() => void toggleRecording(state)}
       >
-        <span class="record-dot" aria-hidden="true" />
+        <span class="dot" aria-hidden="true" />
         {t("recording.start")}
       </button>
     );
@@ -194,9 +194,8 @@ export function RecordButton({ state }: { state: SessionState }) {
       aria-keyshortcuts="r"
       onClick={() => void toggleRecording(state)}
     >
-      <span class="record-dot" aria-hidden="true" />
-      <span class="record-word">{t("recording.running")}</span>{" "}
-      {formatSeconds(recording.ticks / rateHz)}
+      <span class="dot" aria-hidden="true" />
+      <span class="roomy">{t("recording.running")}</span> {formatSeconds(recording.ticks / rateHz)}
       <span class="visually-hidden">{t("recording.stop")}</span>
     </button>
   );

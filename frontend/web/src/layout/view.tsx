@@ -8,12 +8,12 @@ import { addressOf } from "../lab/scene/cameras";
 import { SceneLabels } from "../lab/scene/labels";
 import { hasWebGl, Schematic } from "../lab/scene/schematic";
 import { SceneTools } from "../lab/scene/tools";
-import { beginAt, enterView, fitCamera, isLow } from "../lab/scene/viewer";
+import { beginView, enterView, fitCamera, isLow } from "../lab/scene/viewer";
 import { CornerMark } from "./marks";
 
 /** viser's page in the frame, with its first camera fitted to the frame. */
 function load(frame: HTMLIFrameElement): void {
-  const first = addressOf(beginAt("whole", frame.clientWidth / frame.clientHeight));
+  const first = addressOf(beginView(frame.clientWidth / frame.clientHeight));
   frame.src = `viser/${sessionName}/?${first}${theme.peek() === "dark" ? "&darkMode" : ""}`;
 }
 

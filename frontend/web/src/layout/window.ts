@@ -42,7 +42,9 @@ export function readCurrentError(ring: SampleRing, lane: number, controllerStart
 
 /** The rows of the lanes of each joint; all rows for a single joint. */
 const groupOfJoints = (lanes: SessionState["lanes"]): number[][] =>
-  [1, 2].map((joint) => [...lanes.keys()].filter((row) => (lanes[row]?.joint ?? 1) === joint));
+  [...new Set(lanes.map(({ joint }) => joint))].map((joint) =>
+    [...lanes.keys()].filter((row) => lanes[row]?.joint === joint),
+  );
 
 /** Whether the controllers of all lanes started before the window, or all with it. */
 const areInStep = ({ lanes, window }: Pick<SessionState, "lanes" | "window">): boolean =>

@@ -1,7 +1,15 @@
 import { describe, expect, it } from "vitest";
-import { axesOf, ellipseOf, pathOf, placeLinks, pullOf, reachOf } from "../../src/core/armgeometry";
+import {
+  axesOf,
+  ellipseOf,
+  pathOf,
+  placeLinks,
+  placeTip,
+  pullOf,
+  reachOf,
+} from "../../src/core/armgeometry";
 
-const LENGTHS = { length1: 0.3, length2: 0.2 };
+const LENGTHS = [0.3, 0.2];
 type Pair = readonly [number, number];
 const POSES: readonly Pair[] = [
   [0.3, 0.9],
@@ -12,9 +20,9 @@ const STEP = 1e-6;
 
 /** J by differences, row by row. */
 function jacobian([q1, q2]: Pair): [number, number, number, number] {
-  const { tip } = placeLinks(LENGTHS, q1, q2);
-  const first = placeLinks(LENGTHS, q1 + STEP, q2).tip;
-  const second = placeLinks(LENGTHS, q1, q2 + STEP).tip;
+  const tip = placeTip(LENGTHS, [q1, q2]);
+  const first = placeTip(LENGTHS, [q1 + STEP, q2]);
+  const second = placeTip(LENGTHS, [q1, q2 + STEP]);
   const slope = (one: number, from: number) => (one - from) / STEP;
   return [
     slope(first.x, tip.x),
@@ -26,10 +34,10 @@ function jacobian([q1, q2]: Pair): [number, number, number, number] {
 
 describe("the tip of an arm", () => {
   it("hangs straight down at zero and turns to the right with positive angles", () => {
-    expect(placeLinks(LENGTHS, 0, 0).tip).toEqual({ x: 0, y: -0.5 });
-    const { elbow, tip } = placeLinks(LENGTHS, Math.PI / 2, 0);
-    expect([elbow.x, tip.x]).toEqual([0.3, 0.5]);
-    expect(tip.y).toBeCloseTo(0, 12);
+    expect(placeTip(LENGTHS, [0, 0])).toEqual({ x: 0, y: -0.5 });
+    const links = placeLinks(LENGTHS, [Math.PI / 2, 0]);
+    expect(links.map(({ x }) => x)).toEqual([0.3, 0.5]);
+    expect(links[1]?.y).toBeCloseTo(0, 12);
   });
 
   it.each(POSES)("moves under a force as K predicts, at %f, %f", (q1, q2) => {
@@ -51,11 +59,23 @@ describe("the tip of an arm", () => {
     expect(found.greatest).toBeGreaterThan(found.least);
   });
 
+  it("yields with a third joint by its compliance", () => {
+    const three = ellipseOf([0.3, 0.2, 0.1], [0.3, 0.9, 0], [80, 20, 1e12]);
+    const soft = ellipseOf([0.3, 0.2, 0.1], [0.3, 0.9, 0.4], [80, 20, 10]);
+    const stiff = ellipseOf([0.3, 0.2, 0.1], [0.3, 0.9, 0.4], [80, 20, 40]);
+    // A rigid joint 3 without an angle lengthens link 2.
+    const longer = ellipseOf([0.3, 0.3], [0.3, 0.9], [80, 20]);
+    expect(three?.greatest).toBeCloseTo(longer?.greatest ?? 0, 6);
+    expect(three?.angle).toBeCloseTo(longer?.angle ?? 0, 9);
+    expect(soft?.least).toBeLessThan(stiff?.least ?? 0);
+  });
+
   it("has no ellipse where the arm is straight, folded or unknown", () => {
     for (const q2 of [0, Math.PI, Number.NaN]) {
       expect(ellipseOf(LENGTHS, [0.4, q2], [80, 80])).toBeNull();
     }
     expect(ellipseOf(LENGTHS, [0.4, 1], [Number.NaN, 80])).toBeNull();
+    expect(ellipseOf([0.3], [0.4], [80])).toBeNull();
   });
 });
 

@@ -1,7 +1,8 @@
 import { describe, expect, it } from "vitest";
 import openapi from "../../../../docs/openapi.json?raw";
-import { QUANTITIES, type Quantity } from "../../src/core/quantities";
+import { FIELDS } from "../../src/core/quantities";
 import { parseNumber, readNumber, stepNumber } from "../../src/core/readnumber";
+import { quantityOfSchema } from "../../src/core/schema";
 
 const reasonOf = (typed: string, demand = {}) => {
   const reading = readNumber(typed, demand);
@@ -122,7 +123,7 @@ describe("the bounds of the page's own fields", () => {
   ] as const)("are those of the API: %s.%s", (schema, name) => {
     const { prefixItems, ...plain } = schemas[schema].properties[name];
     const { minimum, maximum } = prefixItems?.[0] ?? plain;
-    const { min, max, factor = 1 }: Quantity = QUANTITIES[name];
+    const { min, max, factor = 1 } = quantityOfSchema(FIELDS[name]);
     expect([min, max]).toEqual([
       expect.closeTo(minimum * factor),
       expect.closeTo(maximum * factor),

@@ -20,6 +20,7 @@ import type {
   Configuration,
   EffectsRequest,
   Figure,
+  Joint,
   Lane,
   Law,
   LawRow,
@@ -104,19 +105,24 @@ export const putPosition = (body: RequestOf<PositionReference>) =>
   inSession("put", "/position", { body });
 export const putStiffness = (body: RequestOf<StiffnessReference>) =>
   inSession("put", "/stiffness", { body });
-/** Restart the current reference with a fade; of both joints each its own. */
+/** Restart the current reference with a fade; of all joints each its own. */
 const repeatReference =
   (name: "position" | "stiffness"): SessionRequest =>
   async (edit) => {
-    const { configuration } = await readState();
+    const state = await readState();
+    const { configuration } = state;
     const { arm } = configuration;
-    const restart = (of: Pick<Configuration, typeof name>, joint = edit.joint) =>
+    const restart = (of: Pick<Configuration, typeof name>, joint: Joint | null) =>
       inSession("put", `/${name}`, { query: { restart: true }, body: of[name] })(
         edit.forJoint(joint),
       );
-    if (!arm || edit.joint === 1) return restart(configuration);
-    if (edit.joint === null) await restart(configuration, 1);
-    return restart(arm.joint2, 2);
+    if (!arm) return restart(configuration, edit.joint);
+    let after = state;
+    for (const [index, of] of [configuration, ...arm.other_joints].entries()) {
+      const joint = index + 1;
+      if (edit.joint === null || edit.joint === joint) after = await restart(of, joint);
+    }
+    return after;
   };
 
 export const repeatPosition = repeatReference("position");

@@ -24,7 +24,6 @@ export type EffectsPreset = Schemas["EffectsPreset"];
 /** Descriptions of the exchangeable parts, except for laws. */
 export type Kinds = Schemas["Kinds"];
 export type EffectRow = Schemas["EffectState"];
-export type FormField = Schemas["FormField"];
 /** A numeric field of a kind. */
 export type ParameterRow = Schemas["ParameterState"];
 /** A figure's run compared with the paper's claim. */
@@ -69,7 +68,7 @@ export type RequestOf<T> = T extends unknown
 export type Load = RequestOf<LoadRow["load"]>;
 
 export type Method = "get" | "put" | "post" | "patch" | "delete";
-export type Joint = 1 | 2;
+export type Joint = number;
 
 export type RunSummary = Schemas["RunSummary"];
 export type MeasuredWindow = Schemas["MeasuredWindow"];

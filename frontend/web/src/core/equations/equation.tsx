@@ -24,12 +24,12 @@ const SYMBOLS: Record<Topic, string> = {
 function EquationRow({ equation }: { equation: Equation }) {
   const { number, tex, printed, note } = equation;
   return (
-    <div class="equation">
+    <div>
       {number && <span class="tag muted">{t("equations.number", { number })}</span>}
       <Formula tex={tex} />
       {printed && (
-        <div class="note is-warn equation-printed">
-          <span class="tag strong">{t("equations.printed")}</span>
+        <div class="note is-warn">
+          <span class="tag strong tone">{t("equations.printed")}</span>
           <Formula tex={printed} />
           <p class="small" translate>
             {t("equations.corrected")}
@@ -60,7 +60,7 @@ export function EquationCard({ topic }: { topic: Topic }) {
   const names = new Set(session.value?.lanes.map(({ law }) => law));
   const controlling = laws.value.filter(({ name, equation }) => equation && names.has(name));
   return (
-    <div class="equation-card">
+    <div class="stack loose">
       {equationsOf(topic, controlling).map((equation) => (
         <EquationRow key={equation.tex} equation={equation} />
       ))}
@@ -73,7 +73,7 @@ export function EquationButton({ topic }: { topic: Topic }) {
   const title = t("equations.open", { topic: t(`equations.topics.${topic}`) });
   return (
     <Popup
-      class="symbol"
+      class="quiet symbol"
       popupClass="equation-popup"
       name={`${title}, ${SYMBOLS[topic].replace("_", "")}`}
       title={title}

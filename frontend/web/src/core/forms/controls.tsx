@@ -1,12 +1,13 @@
 /** Controls for fields without fields of their own, with the reasons of a rejection. */
 import { useContext, useId } from "preact/hooks";
+import { quantityOfSchema, readField, type Schema } from "../schema";
 import { explainViolation } from "../state/refusal";
 import { t } from "../text/t";
 import { ErrorLine, SelectField } from "../widgets/form";
 import { NumberField } from "../widgets/numberinput";
 import { Boxes } from "../widgets/pagelayout";
+import { LiveNumber } from "./live";
 import { FormContext, type Offered, violationsAt } from "./request";
-import { quantityOfSchema, readField, type Schema } from "./schema";
 
 export interface FieldProps {
   name: string;
@@ -35,7 +36,22 @@ export const FieldError = ({ path, schema }: { path: string; schema: Schema }) =
   <ErrorLine>{useReason(path, schema)}</ErrorLine>
 );
 
-export function NumberOf({ path, schema, value, onChange }: FieldProps) {
+export function NumberOf(props: FieldProps) {
+  const { live } = useContext(FormContext);
+  const { path, schema, value } = props;
+  if (live === undefined) return <TypedNumber {...props} />;
+  return (
+    <LiveNumber
+      name={`${live.name}.${path}`}
+      path={path}
+      schema={schema}
+      value={value as number}
+      send={(next) => live.send(path, next)}
+    />
+  );
+}
+
+function TypedNumber({ path, schema, value, onChange }: FieldProps) {
   const id = useId();
   const reason = useReason(path, schema);
   const { isOptional, type, description, empty = "" } = readField(schema);
@@ -57,11 +73,24 @@ export function NumberOf({ path, schema, value, onChange }: FieldProps) {
 }
 
 /** The numbers of a list of fixed length, such as the ends of a range. */
-export function Numbers({ path, schema, value, onChange }: FieldProps) {
+export function Numbers(props: FieldProps) {
+  const { path, schema, value, onChange } = props;
   const id = useId();
   const reason = useReason(path, schema);
+  const { live } = useContext(FormContext);
   const { prefixItems = [], parts = [], unit = "" } = schema;
   const numbers = value as readonly (number | undefined)[];
+  if (live) {
+    return prefixItems.map((item, at) => (
+      <NumberOf
+        {...props}
+        key={at}
+        path={`${path}[${at}]`}
+        schema={{ unit, ...item }}
+        value={numbers[at]}
+      />
+    ));
+  }
   return (
     <>
       <div class="pair">

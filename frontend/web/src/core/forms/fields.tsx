@@ -1,6 +1,15 @@
 /** The fields of a request: one control per field of its schema, in that order. */
 import type { ComponentChildren, VNode } from "preact";
 import { useContext } from "preact/hooks";
+import {
+  changeKind,
+  firstOf,
+  isNumber,
+  kindsOf,
+  readField,
+  type Schema,
+  type Values,
+} from "../schema";
 import { t } from "../text/t";
 import { ErrorLine, SelectField } from "../widgets/form";
 import {
@@ -13,16 +22,8 @@ import {
   Selection,
   TextOf,
 } from "./controls";
+import type { Live } from "./live";
 import { describeRest, FormContext, type Offered, type RequestForm } from "./request";
-import {
-  changeKind,
-  firstOf,
-  isNumber,
-  kindsOf,
-  readField,
-  type Schema,
-  type Values,
-} from "./schema";
 
 /** The choices of a field, or of the items of a list; null if it is free. */
 function useOffered(name: string, schema: Schema): Offered | null {
@@ -187,7 +188,7 @@ interface FieldsProps {
   replace?: Readonly<Record<string, ComponentChildren>>;
   /** In front of the first field. */
   lead?: VNode;
-  /** Side by side, not in pairs. */
+  /** Not in pairs: in a row, or in a narrow panel. */
   isRow?: boolean;
 }
 
@@ -234,6 +235,17 @@ export function Fields(props: FieldsProps) {
     </>
   );
 }
+
+/** Numbers of the session, sent as soon as they are changed. */
+export const LiveFields = ({
+  schema,
+  value,
+  ...live
+}: Live & { schema: Schema; value: object }) => (
+  <FormContext.Provider value={{ body: {}, choices: {}, refusal: null, live }}>
+    <Fields schema={schema} value={value as Values} onChange={() => undefined} isRow />
+  </FormContext.Provider>
+);
 
 type RequestFieldsProps = Pick<FieldsProps, "schema" | "replace" | "isRow"> & { form: RequestForm };
 

@@ -1,9 +1,10 @@
 /** The state of a form: its request, and why the server rejected it. */
 import { createContext } from "preact";
-import { useState } from "preact/hooks";
+import { useRef, useState } from "preact/hooks";
 import { RefusedError, type Violation } from "../api/errors";
-import { explain } from "../state/actions";
-import { firstOf, type Schema, type Values, valueAt } from "./schema";
+import { firstOf, type Schema, type Values, valueAt } from "../schema";
+import { describeError, explain } from "../state/actions";
+import type { Live } from "./live";
 
 interface Refusal {
   body: Values;
@@ -22,29 +23,55 @@ export interface RequestForm {
   set: (body: Values) => void;
   choices: Choices;
   refusal: Refusal | null;
-  /** Send it: null if it is rejected; the reasons are then shown at their fields. */
+  /** Send it: null if it is rejected; the reasons of the last one are shown at their fields. */
   attempt: <T>(send: (body: Values) => Promise<T>) => Promise<T | null>;
 }
 
-export const FormContext = createContext({} as RequestForm);
+/** What the fields of a form need; numbers are sent at once by `live`. */
+type FormState = Pick<RequestForm, "body" | "choices" | "refusal"> & { live?: Live };
+
+export const FormContext = createContext({} as FormState);
 
 /** A form that begins with the defaults of its schema, and with `first`. */
-export function useRequest(schema: Schema, choices: Choices = {}, first: Values = {}): RequestForm {
+export function useRequest(
+  schema: Schema,
+  choices: Choices = {},
+  first: Values = {},
+  describe: (error: unknown) => string = describeError,
+): RequestForm {
   const [body, set] = useState<Values>({ ...(firstOf(schema) as Values), ...first });
   const [refusal, setRefusal] = useState<Refusal | null>(null);
+  const attempts = useRef(0);
   const attempt: RequestForm["attempt"] = async (send) => {
+    const number = ++attempts.current;
     setRefusal(null);
     try {
       return await send(body);
     } catch (error) {
-      const isRefused = error instanceof RefusedError;
-      const message = isRefused ? error.message : explain(error);
-      const violations = isRefused ? error.violations : [];
-      setRefusal({ body, message, violations, fields: new Map() });
+      if (number !== attempts.current) return null;
+      const violations = error instanceof RefusedError ? error.violations : [];
+      setRefusal({ body, message: describe(error), violations, fields: new Map() });
       return null;
     }
   };
   return { body, set, choices, refusal, attempt };
+}
+
+/** A form for a value of one of several kinds; what was typed for another kind is kept. */
+export function useKind(schemaOf: (kind: string) => Schema, firstKind: string) {
+  const begin = (kind: string): Values => ({ ...(firstOf(schemaOf(kind)) as Values), kind });
+  const form = useRequest({}, {}, begin(firstKind), explain);
+  const kind = String(form.body.kind);
+  const schema = schemaOf(kind);
+  const names = Object.keys(schema.properties ?? {});
+  return {
+    ...form,
+    kind,
+    schema,
+    /** Those of this kind. */
+    values: Object.fromEntries(names.map((name) => [name, form.body[name]])),
+    choose: (next: string) => form.set({ ...begin(next), ...form.body, kind: next }),
+  };
 }
 
 /** Whether the violation is about the value that the form sent, not about a file's text. */
@@ -54,7 +81,7 @@ function isAbout({ name, value }: Violation, { body }: Refusal): boolean {
 }
 
 /** The violations of a field, until its value has changed. */
-export function violationsAt({ refusal, body }: RequestForm, path: string): Violation[] {
+export function violationsAt({ refusal, body }: FormState, path: string): Violation[] {
   if (refusal === null || valueAt(body, path) !== valueAt(refusal.body, path)) return [];
   return refusal.violations.filter((violation) => {
     const rest = violation.name.startsWith(path) ? violation.name.slice(path.length) : "-";
@@ -65,7 +92,7 @@ export function violationsAt({ refusal, body }: RequestForm, path: string): Viol
 }
 
 /** The reasons that no field shows. */
-export function describeRest({ refusal }: RequestForm): string {
+export function describeRest({ refusal }: Pick<RequestForm, "refusal">): string {
   if (refusal === null) return "";
   const { fields, message, violations } = refusal;
   if (fields.size === 0) return message;

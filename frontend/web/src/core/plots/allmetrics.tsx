@@ -12,7 +12,7 @@ interface AllMetricsProps {
 /** Every metric of a window, one column per lane: position, stiffness and effort. */
 export function AllMetrics({ caption, lanes }: AllMetricsProps) {
   return (
-    <table class="metrics all-metrics" aria-label={t("metrics.all")}>
+    <table class="metrics" aria-label={t("metrics.all")}>
       <caption>{caption}</caption>
       <thead>
         <tr>
@@ -26,8 +26,8 @@ export function AllMetrics({ caption, lanes }: AllMetricsProps) {
       </thead>
       {listGroups(lanes).map(({ name, remark, rows }) => (
         <tbody key={name}>
-          <tr class="metrics-group">
-            <th scope="colgroup" colSpan={1 + lanes.length}>
+          <tr>
+            <th scope="colgroup" class="hint strong" colSpan={1 + lanes.length}>
               {name} <span class="unit">{remark}</span>
             </th>
           </tr>

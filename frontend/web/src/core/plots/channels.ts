@@ -89,6 +89,7 @@ export const CHANNELS: Readonly<Record<ChannelName, ChannelLook>> = {
   disturbance_motor1_nm: { ...torque("blue"), truthOf: "estimate_motor1_nm" },
   disturbance_motor2_nm: { ...torque("purple"), truthOf: "estimate_motor2_nm" },
   lever_ratio: { unit: "1", factor: 1, span: 0.1, colour: "green" },
+  payload_estimate_kg: { unit: "kg", factor: 1, span: 0.1, colour: "orange" },
 };
 
 const CHANNEL_NAMES = Object.keys(CHANNELS) as ChannelName[];

@@ -67,7 +67,7 @@ function Handle({ name, box }: CursorProps) {
   const share = Math.min(1, Math.max(0, place.share));
   return (
     <div
-      class={`cursor-handle is-${name}`}
+      class={`small strong cursor-handle is-${name}`}
       style={{ left: `${share * 100}%` }}
       role="slider"
       tabIndex={0}

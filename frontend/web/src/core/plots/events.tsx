@@ -33,6 +33,7 @@ function Mark({ event, nextS }: MarkProps) {
     >
       <button
         type="button"
+        class="line tight tiny strong nowrap"
         aria-label={t("steps.mark", { event: event.label, time: formatFixed(event.time_s, 2) })}
         aria-expanded={isOpen}
         onFocus={() => setOpen(true)}
@@ -99,9 +100,13 @@ export function EventMarks() {
   const keys = keysOf(events);
   useEffect(() => {
     const put = () => list.current && place(list.current);
-    put();
     const stop = onFrame(put);
-    return stop;
+    const resizing = new ResizeObserver(put);
+    if (list.current) resizing.observe(list.current);
+    return () => {
+      stop();
+      resizing.disconnect();
+    };
   }, []);
   return (
     <ul class="marks" ref={list} aria-label={t("plots.events")}>

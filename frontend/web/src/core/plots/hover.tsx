@@ -47,7 +47,7 @@ export function HoverLine() {
   }, []);
   return (
     <div class="hover-line" ref={line} hidden>
-      <span ref={words} />
+      <span class="tiny muted tabular nowrap" ref={words} />
     </div>
   );
 }

@@ -2,6 +2,7 @@ import { useSignal } from "@preact/signals";
 import type { ComponentChildren } from "preact";
 import { t } from "../text/t";
 import type { LineStyle, PlotSign } from "./definitions";
+import type { Palette } from "./linestyles";
 
 const SIGN_PATHS: Readonly<Record<PlotSign, string>> = {
   none: "",
@@ -10,8 +11,13 @@ const SIGN_PATHS: Readonly<Record<PlotSign, string>> = {
   triangle: "M11 -1l3.5 6h-7z",
 };
 
+interface SwatchProps {
+  look: Omit<LineStyle, "colour"> & { colour: keyof Palette };
+  sign?: PlotSign | undefined;
+}
+
 /** A piece of a curve, as it is drawn. */
-export function Swatch({ look, sign = "none" }: { look: LineStyle; sign?: PlotSign | undefined }) {
+export function Swatch({ look, sign = "none" }: SwatchProps) {
   return (
     <svg
       class="swatch"

@@ -59,8 +59,8 @@ function Rows({ setup, indices }: RowsProps) {
   if (ring === undefined) return null;
   return (
     <tbody>
-      <tr class="measures-plot">
-        <th scope="rowgroup" colSpan={COLUMNS.length + 1}>
+      <tr>
+        <th class="strong" scope="rowgroup" colSpan={COLUMNS.length + 1}>
           {titleOf(setup)} <span class="unit">{unitOf(setup.channels)}</span>
         </th>
       </tr>
@@ -97,7 +97,7 @@ export function MeasureTable() {
   const lapse = b - a;
   return (
     <section class="column joined small tabular measures" aria-label={t("cursors.table")}>
-      <dl class="row measures-head">
+      <dl class="row tight">
         <dt>{t("cursors.names.a")}</dt>
         <dd>{t("cursors.value", { time: formatFixed(a, 3) })}</dd>
         <dt>{t("cursors.names.b")}</dt>
@@ -108,8 +108,8 @@ export function MeasureTable() {
         <dd>{formatNumber(lapse === 0 ? null : 1 / Math.abs(lapse), 4, 3)} Hz</dd>
       </dl>
       {/* biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls must be reached by key */}
-      <section class="measures-rows" tabIndex={0} aria-label={t("cursors.rows")}>
-        <table>
+      <section class="scroller" tabIndex={0} aria-label={t("cursors.rows")}>
+        <table class="metrics">
           <thead>
             <tr>
               <th scope="col">{t("cursors.curve")}</th>

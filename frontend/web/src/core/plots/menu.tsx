@@ -64,7 +64,7 @@ export function PlotMenu({ setup, title, traces, hidden }: PlotMenuProps) {
   const shown = traces.filter(({ key, follows }) => !hidden.has(follows ?? key));
   return (
     <Popup
-      class="rigid muted strong plot-menu"
+      class="quiet rigid muted strong plot-menu"
       name={t("picker.menu", { plot: title })}
       title={t("picker.menu", { plot: title })}
       button={<span aria-hidden="true">⋯</span>}

@@ -70,7 +70,7 @@ export function MetricsTable({ label, caption, captionHint, ...rest }: MetricsTa
         {rows.map((row, index) => (
           <tr key={row.key}>
             <th scope="row">
-              <span class="line joined metrics-name">
+              <span class="line joined">
                 <Swatch look={row.look} />
                 <span class="legend-name">{row.name}</span>
               </span>

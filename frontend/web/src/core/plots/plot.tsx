@@ -2,6 +2,8 @@ import { computed } from "@preact/signals";
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import type { Joint } from "../api/types";
 import { EquationButton } from "../equations/equation";
+import { limitRate } from "../rate";
+import { jointCount } from "../state/arm";
 import type { LaneSegments } from "../state/lanes";
 import { lawOf } from "../state/laws";
 import { session } from "../state/session";
@@ -51,12 +53,15 @@ function useTraces(
 ) {
   const drawn = preset === "phase" ? channels.slice(1) : channels;
   const key = drawn.join();
-  const content = useMemo(() => composeOfJoint(drawn, lanes, joint), [key, lanes, joint]);
+  const content = useMemo(
+    () => composeOfJoint(drawn, lanes, joint, jointCount.value),
+    [key, lanes, joint],
+  );
   const groupKeys = content.groups.map((group) => group.key);
   const valid = groupKeys.filter((group) => chosen.has(group));
   const shown = new Set(valid.length > 0 ? valid : groupKeys.slice(0, 1));
   const shownKey = [...shown].join();
-  const count = lanesOfJoint(lanes.length, joint).length;
+  const count = lanesOfJoint(lanes.length, joint, jointCount.value).length;
   const traces = useMemo(() => tracesOf(content, shown, count), [content, shownKey]);
   return { content, shown, traces, isSideBySide: count > 1 };
 }
@@ -66,9 +71,7 @@ function useTraces(
  * the span.
  */
 function keepReadings(traces: readonly Trace[], readings: ReadonlyMap<string, HTMLElement>) {
-  let readAt = 0;
   const read = () => {
-    readAt = performance.now();
     const ring = shownRing();
     const index = sampleRead();
     const { from } = shownSpan();
@@ -84,11 +87,11 @@ function keepReadings(traces: readonly Trace[], readings: ReadonlyMap<string, HT
       if (element.textContent !== next) element.textContent = next;
     }
   };
-  const stopFrames = onFrame(() => {
-    if (performance.now() - readAt > READING_MS) read();
-  });
+  const { request, cancel } = limitRate(read, () => READING_MS);
+  const stopFrames = onFrame(request);
   const stopHover = hoverShare.subscribe(read);
   return () => {
+    cancel();
     stopFrames();
     stopHover();
   };

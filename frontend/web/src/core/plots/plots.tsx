@@ -154,7 +154,7 @@ export function Plots({ isBasic }: { isBasic: boolean }) {
       <Toolbar isBasic={isBasic} />
       <section
         key={isBasic ? "basic" : "all"}
-        class="plots-scroll"
+        class="column joined scroller plots-scroll"
         ref={list}
         aria-label={t("plots.list")}
         // biome-ignore lint/a11y/noNoninteractiveTabindex: scrolling needs the keyboard

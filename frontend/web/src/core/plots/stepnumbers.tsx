@@ -56,7 +56,7 @@ export function StepNumbers({ event, nextS }: StepNumbersProps) {
         {t("steps.heading", { event: event.label, time: formatFixed(event.time_s, 2) })}
       </strong>
       {isHeld ? (
-        <table>
+        <table class="metrics">
           <caption>
             {Number.isFinite(untilS)
               ? t("steps.until", { time: formatFixed(untilS, 2) })

@@ -1,4 +1,5 @@
 import { useEffect, useRef } from "preact/hooks";
+import { limitRate } from "../rate";
 import { session } from "../state/session";
 import { t } from "../text/t";
 import { formatFixed } from "../units";
@@ -77,7 +78,6 @@ function useTicks(spanOf: () => Span, onDrawn: () => void = () => undefined) {
 /** The time axis below all plots: its numbers, and the keys that move and zoom. */
 export function TimeAxis() {
   const axis = useRef<HTMLDivElement>(null);
-  const writtenAt = useRef(0);
   const publish = () => {
     const { from, to } = shownSpan();
     const value = t("plots.spanValue", { from: formatFixed(from, 2), to: formatFixed(to, 2) });
@@ -86,15 +86,13 @@ export function TimeAxis() {
     const { newestTime } = shownRing();
     const end = newestTime > to ? newestTime : to;
     axis.current?.setAttribute("aria-valuemax", end.toFixed(2));
-    writtenAt.current = performance.now();
   };
-  const canvas = useTicks(shownSpan, () => {
-    if (isFrozen.peek() || performance.now() - writtenAt.current > SHOWN_MS) publish();
-  });
+  const published = useRef(limitRate(publish, () => (isFrozen.peek() ? 0 : SHOWN_MS))).current;
+  const canvas = useTicks(shownSpan, published.request);
   return (
     <div
       ref={axis}
-      class="time-axis"
+      class="grab time-axis"
       role="slider"
       tabIndex={0}
       aria-label={t("plots.span")}
@@ -121,7 +119,7 @@ export function ZoomTitle() {
     event && t("zoom.title", { time: formatFixed(event.time_s, 2), event: event.label });
   const label = words === null ? t("zoom.none") : mayHaveZoomedSamples() ? words : t("zoom.gone");
   return (
-    <p class="zoom-title" title={words ?? undefined}>
+    <p class="muted tiny strong zoom-title" title={words ?? undefined}>
       <span>{label}</span>
     </p>
   );

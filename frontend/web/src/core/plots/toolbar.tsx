@@ -18,7 +18,7 @@ function WindowPicker() {
     showLength(seconds);
   };
   return (
-    <fieldset class="line small window-picker" aria-label={t("plots.window")}>
+    <fieldset class="line small tight window-picker" aria-label={t("plots.window")}>
       {WINDOWS_S.map((seconds) => {
         const isThis =
           span === null
@@ -100,7 +100,7 @@ function ZoomButton({ name, factor, path }: ZoomButtonProps) {
 export function Toolbar({ isBasic }: { isBasic: boolean }) {
   return (
     <div class="row tight plot-tools" role="toolbar" aria-label={t("plots.tools")}>
-      <fieldset class="view-group" aria-label={t("plots.view")}>
+      <fieldset class="line tight" aria-label={t("plots.view")}>
         <HoldButton />
         <button
           type="button"
@@ -133,7 +133,7 @@ export function Toolbar({ isBasic }: { isBasic: boolean }) {
       {!isBasic && (
         <>
           <WindowPicker />
-          <span class="zoom-group">
+          <span class="line tight">
             <ZoomButton name={t("plots.zoomOut")} factor={ZOOM} path="M1 5.2h10v1.6H1z" />
             <ZoomButton
               name={t("plots.zoomIn")}

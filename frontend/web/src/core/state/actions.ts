@@ -24,8 +24,7 @@ const MAX_TRIES = 5;
 interface Rejection {
   control: string;
   message: string;
-  /** The server has rejected the value. */
-  isRefused?: boolean;
+  error?: unknown;
   /** Send it again although another user's change caused the rejection. */
   retry?: () => Promise<boolean>;
 }
@@ -36,6 +35,7 @@ export const problem = signal<Rejection | null>(null);
 /** The reason of a rejection in the words of the page. */
 export function explain(error: unknown): string {
   if (error instanceof RefusedError) return explainRefusal(error);
+  if (error instanceof RangeError) return error.message; // a text of the page, not sent
   if (error instanceof NotExecutedError) {
     return error.status === null
       ? t("connection.notCarriedOut")
@@ -75,9 +75,23 @@ async function sendUnlessChanged(
   }
 }
 
+/** Send a request; resolves when the page shows the state of the server, throws its rejection. */
+export async function execute(
+  request: SessionRequest,
+  base: SessionState | null = session.peek(),
+  joint: Joint | null = chosenJoint.peek(),
+): Promise<void> {
+  try {
+    acceptState(await sendUnlessChanged(request, base, joint));
+  } catch (error) {
+    if (error instanceof LockedError) phase.value = "locked";
+    throw error;
+  }
+}
+
 /**
- * Send a request for a control; resolves when the page shows the state of the server. base: the
- * state that the user saw, if not the current one. joint: that on which the request acts.
+ * Send a request for a control, which shows a rejection. base: the state that the user saw, if not
+ * the current one. joint: that on which the request acts.
  */
 export async function perform(
   control: string,
@@ -87,10 +101,9 @@ export async function perform(
 ): Promise<boolean> {
   problem.value = null;
   try {
-    acceptState(await sendUnlessChanged(request, base, joint));
+    await execute(request, base, joint);
     return true;
   } catch (error) {
-    if (error instanceof LockedError) phase.value = "locked";
     problem.value =
       error instanceof ChangedError
         ? {
@@ -98,7 +111,7 @@ export async function perform(
             message: describeChange(error.path, base, session.peek()),
             retry: () => perform(control, request, undefined, joint),
           }
-        : { control, message: explain(error), isRefused: error instanceof RefusedError };
+        : { control, message: explain(error), error };
     return false;
   }
 }

@@ -5,15 +5,17 @@ import {
   putLanes,
   readState,
   removeLoad,
+  type SessionRequest,
   start,
   startRecording,
   stopRecording,
 } from "../api/client";
-import type { Lane, Law, SessionState } from "../api/types";
+import type { Lane, Law, LoadRow, SessionState } from "../api/types";
 import { perform } from "./actions";
+import { armOf } from "./joints";
 import { comparisonLanes, comparisonsOf, gainsOf, lanesToCompare } from "./lanes";
 import { lawOf } from "./laws";
-import { activeWeights, nextWeight } from "./plant";
+import { activeWeights, nextWeight, scheduledWeights } from "./plant";
 import { session } from "./session";
 
 /** Names of the controls that show why a command was rejected. */
@@ -50,10 +52,18 @@ export function removeLane(state: SessionState, lane: number): Promise<boolean> 
   return perform(CONTROL.compare, putLanes(remaining.map(({ controller }) => controller)));
 }
 
-async function removeWeights(state: SessionState): Promise<SessionState> {
-  for (const row of activeWeights(state)) await removeLoad(row.id)();
+async function removeRows(rows: readonly LoadRow[]): Promise<SessionState> {
+  for (const row of rows) await removeLoad(row.id)();
   return readState();
 }
+
+/** The load acts now instead of at its scheduled time; masses at the tip of an arm add up. */
+const addWeight =
+  (state: SessionState): SessionRequest =>
+  async (edit) => {
+    const added = await addLoad(nextWeight(state))(edit);
+    return armOf(state) === null ? removeRows(scheduledWeights(state)) : added;
+  };
 
 /**
  * A command waits for the previous one: a button and its key at the same time would both add 3 kg.
@@ -68,7 +78,7 @@ export function toggleWeight(): Promise<boolean> {
     const isWeightActive = activeWeights(state).length > 0;
     return perform(
       CONTROL.load,
-      isWeightActive ? () => removeWeights(state) : addLoad(nextWeight(state)),
+      isWeightActive ? () => removeRows(activeWeights(state)) : addWeight(state),
     );
   });
   return pending;

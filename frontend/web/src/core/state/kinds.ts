@@ -1,8 +1,8 @@
 /** The exchangeable parts, except for laws, with the server's description of each kind. */
 import { signal } from "@preact/signals";
 import { putEffects, readKinds, type SessionRequest } from "../api/client";
-import type { EffectRow, EffectsPreset, FormField, Kinds, ParameterRow } from "../api/types";
-import { type Quantity, quantityOfParameter } from "../quantities";
+import type { EffectRow, EffectsPreset, Kinds, ParameterRow } from "../api/types";
+import { type Quantity, quantityOfSchema, schemaOfParameter } from "../schema";
 
 const RETRY_MS = 2000;
 
@@ -41,26 +41,5 @@ export function effectQuantityOf(path: string): Quantity | null {
     )
     .flatMap(listNumbers)
     .find((row) => row.name === name);
-  return parameter === undefined ? null : quantityOfParameter(parameter);
+  return parameter === undefined ? null : quantityOfSchema(schemaOfParameter(parameter));
 }
-
-/** Initial values of the fields of a form, by name, in the units on screen. */
-export const initialValues = (form: readonly FormField[]): Record<string, number> =>
-  Object.fromEntries(
-    form.map(({ parameter, first }) => {
-      const { factor = 1 } = quantityOfParameter(parameter);
-      return [parameter.name, first * factor];
-    }),
-  );
-
-/** Values of a form in SI. */
-export const readForm = (
-  form: readonly FormField[],
-  values: Readonly<Record<string, number>>,
-): Record<string, number> =>
-  Object.fromEntries(
-    form.map(({ parameter: { name }, parameter }) => [
-      name,
-      (values[name] as number) / (quantityOfParameter(parameter).factor ?? 1),
-    ]),
-  );

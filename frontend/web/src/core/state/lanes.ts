@@ -1,7 +1,7 @@
 /** The lanes of the session: controllers and their names. */
 import { computed, effect, signal } from "@preact/signals";
 import type { Gains, Lane, LaneRow, Law, SessionState } from "../api/types";
-import { armOf, LANES_OF_ARM, nameArms, nameWithoutJoint } from "./joints";
+import { armOf, jointCountOf, nameArms, nameWithoutJoint } from "./joints";
 import { defaultComparisonLaw } from "./laws";
 import { session } from "./session";
 
@@ -21,9 +21,8 @@ export interface ComparisonLane {
 
 export function comparisonLanes(state: SessionState): ComparisonLane[] {
   const first = 1 + state.configuration.comparisons.length - comparisonsOf(state).length;
-  const lanesOfOne = armOf(state) === null ? 1 : LANES_OF_ARM;
   return comparisonsOf(state).flatMap((controller, index) => {
-    const row = state.lanes[lanesOfOne * (first + index)];
+    const row = state.lanes[jointCountOf(state) * (first + index)];
     const lane = first + index + 1;
     const lineStyle = row?.segments.at(-1)?.line_style ?? 0;
     const name = nameWithoutJoint(row?.name ?? "");
@@ -99,7 +98,8 @@ export const controllerAt = (lane: readonly Segment[], timeS: number): Segment |
 /** Current names of the controllers: of lanes 1, 2, …, or of each arm. */
 export const controllerNames = computed(() => {
   const names = laneSegments.value.map((lane) => currentSegment(lane)?.name ?? "");
-  return session.value !== null && armOf(session.value) !== null ? nameArms(names) : names;
+  const state = session.value;
+  return state === null || armOf(state) === null ? names : nameArms(names, jointCountOf(state));
 });
 
 // The lanes that *Compare* switches on: the last comparison lanes, or the first other law.

@@ -1,8 +1,7 @@
 /** The installed laws with their descriptions. */
 import { computed, signal } from "@preact/signals";
 import { readLaws } from "../api/client";
-import type { Law, LawParameter, LawRow } from "../api/types";
-import type { Quantity } from "../quantities";
+import type { Law, LawRow } from "../api/types";
 import { t } from "../text/t";
 
 const RETRY_MS = 2000;
@@ -35,39 +34,6 @@ export function describeLaw(name: Law): string {
 /** The default comparison for a law: the first other law. */
 export const defaultComparisonLaw = (law: Law): Law | undefined =>
   usableLaws.value.find(({ name }) => name !== law)?.name;
-
-const MAX_LABEL_LENGTH = 18;
-
-/**
- * A meaning that is too long for the slider's line is shown above it; the slider then has the
- * symbol.
- */
-export const hasLongMeaning = ({ symbol, meaning }: LawParameter): boolean =>
-  symbol !== "" && meaning.length > MAX_LABEL_LENGTH;
-
-/** Label of a parameter's field; for several numbers each has its index. */
-export function labelParameter(row: LawParameter, index: number | null): string {
-  const label = hasLongMeaning(row) ? row.symbol : row.meaning;
-  return index === null ? label : `${label} ${index + 1}`;
-}
-
-/**
- * The parameter of a path such as `lqi.position_rad`, or of a lane,
- * `comparisons[0].parameters.rate[1]`, which does not contain the law: null if laws have different
- * parameters of this name.
- */
-export function parameterOf(path: string): Quantity | null {
-  const [, law, name, place] = /(?:^|\.)(\w+)\.(\w+)(?:\[(\d+)\])?$/.exec(path) ?? [];
-  const index = place === undefined ? null : Number(place);
-  const [first, ...others] = laws.value
-    .filter((candidate) => law === "parameters" || candidate.name === law)
-    .flatMap(({ parameters }) => parameters.filter((row) => row.name === name))
-    .map((row) => ({ label: labelParameter(row, index), unit: row.unit === "1" ? "" : row.unit }));
-  if (first === undefined) return null;
-  return others.every(({ label, unit }) => label === first.label && unit === first.unit)
-    ? first
-    : null;
-}
 
 const normalize = (words: string): string => words.toLowerCase().trim();
 

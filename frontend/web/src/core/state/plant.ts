@@ -82,11 +82,12 @@ export const hungAtTip = (state: SessionState): number =>
     0,
   );
 
+export const scheduledWeights = (state: SessionState): LoadRow[] =>
+  state.loads.filter((row) => !row.active && isWeight(state, row) && row.start_s > state.time_s);
+
 /** Time of the next scheduled weight, session time in s; null without one. */
 export function nextWeightAt(state: SessionState): number | null {
-  const starts = state.loads
-    .filter((row) => !row.active && isWeight(state, row) && row.start_s > state.time_s)
-    .map((row) => row.start_s);
+  const starts = scheduledWeights(state).map((row) => row.start_s);
   return starts.length === 0 ? null : Math.min(...starts);
 }
 

@@ -1,23 +1,26 @@
 /** The reason of a rejection, in the names and units of the page. */
 import type { RefusedError, Violation } from "../api/errors";
-import { type Quantity, quantityOf } from "../quantities";
+import { quantityOf } from "../quantities";
+import type { Quantity } from "../schema";
 import { t } from "../text/t";
 import { formatInput } from "../units";
 import { effectQuantityOf } from "./kinds";
-import { parameterOf } from "./laws";
 
 const MAX_SHOWN = 3;
 
-export function explainRefusal({ message, violations }: RefusedError): string {
+/** path: of the field that was edited, in the request; it names and writes its own value. */
+export function explainRefusal(refusal: RefusedError, path?: string, own?: Quantity): string {
+  const { message, violations } = refusal;
   if (violations.length === 0) return message;
+  const isOwn = ({ name }: Violation) => path && `.${name}`.endsWith(`.${path}`);
   return violations
     .slice(0, MAX_SHOWN)
-    .map((violation) => explainViolation(violation))
+    .map((violation) => explainViolation(violation, isOwn(violation) ? own : undefined))
     .join(" ");
 }
 
 const findQuantity = ({ name }: Violation): Quantity | null =>
-  quantityOf(name) ?? effectQuantityOf(name) ?? parameterOf(name);
+  quantityOf(name) ?? effectQuantityOf(name);
 
 export function explainViolation(
   violation: Violation,

@@ -174,7 +174,7 @@ function acceptBinary(message: ArrayBuffer): void {
     isPastNoticed = true;
   } else {
     samples.ring.append(batch, periodS);
-    endTick = batch.firstTick + batch.count * batch.stride;
+    endTick = batch.firstTick + (batch.count - 1) * batch.stride + 1;
   }
   if (batch.missed > 0) missedSamples.value += batch.missed;
   incrementReceived();

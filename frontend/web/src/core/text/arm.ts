@@ -1,14 +1,14 @@
-/** Texts of an arm: two joints with an actuator in each. */
+/** Texts of an arm: joints with an actuator in each. */
 export const armText = {
   arm: {
     title: "Arm",
-    name: "Two-joint arm",
+    name: "Planar arm",
     joint: "Joint of settings and plots",
-    joints: { both: "Both", "1": "Joint 1", "2": "Joint 2" },
-    torqueOn1: "The torque acts on joint 1. For joint 2, select Joint 2 under Arm.",
-    torqueOn2: "The torque acts on joint 2.",
+    allJoints: "All",
+    jointNumber: "Joint {{joint}}",
+    torqueOn: "The torque acts on joint {{joint}}. For another joint, select it under Arm.",
     onJoint: "On joint {{joint}}",
-    both: "A change applies to both joints.",
+    appliesToAll: "A change applies to all joints.",
     onlyJoint: "A change applies to joint {{joint}} only.",
     differ: "The joints differ; the values shown are those of joint 1.",
     feedforward: "Arm feedforward",
@@ -42,8 +42,12 @@ export const armText = {
       "Force for a small displacement of the tip, by direction. The half axes grow with the square root of the stiffness.",
     noWebGl:
       "This browser has no WebGL, which the 3D view needs. The picture shows the same arm in its plane.",
-    lead: "Two actuators in series as the joints of an arm in a vertical plane.",
+    lead: "Actuators in series as the joints of an arm in a vertical plane.",
     choose: "Arm",
+    jointCount: "Joints",
+    searchesAlone:
+      "Tuning and identification run trials of a single joint: open a session of this actuator for" +
+      " them, and enter the result here for each joint.",
     actuatorOf: "Actuator of joint {{joint}}",
     open: "Open arm",
     opening: "Opening …",

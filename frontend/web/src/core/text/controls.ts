@@ -128,7 +128,6 @@ export const controlsText = {
     customChannel: "Acts on",
     torque: "Torque",
     duration: "Duration",
-    frequency: "Frequency",
     apply: "Apply torque",
   },
 } as const;

@@ -4,6 +4,8 @@ export const designText = {
     open: "Place poles",
     shared: "{{names}} has the same poles: they change together.",
     openHint: "Place poles on the s-plane and see their predicted effect before applying them",
+    ofJoint:
+      "Predictions for joint {{joint}} alone: the coupling with the other joints is not included.",
     title: "Design",
     position: "Position",
     stiffness: "Stiffness",

@@ -157,6 +157,7 @@ export const plotsText = {
     disturbance_motor1_nm: "True disturbance, motor 1",
     disturbance_motor2_nm: "True disturbance, motor 2",
     lever_ratio: "Lever ratio μ",
+    payload_estimate_kg: "Estimated payload m̂",
   },
   /** Short labels for legends. */
   channelLabels: {
@@ -188,6 +189,7 @@ export const plotsText = {
     disturbance_motor1_nm: "true, θ₁",
     disturbance_motor2_nm: "true, θ₂",
     lever_ratio: "μ",
+    payload_estimate_kg: "m̂",
   },
   readout: {
     heading: "Position error",

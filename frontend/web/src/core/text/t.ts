@@ -55,3 +55,7 @@ void i18next.use(formatter).init({
 });
 
 export const { t } = i18next;
+
+/** The language of the texts of an area if it is not translated: a screen reader needs it. */
+export const languageOf = (area: keyof typeof en): "en" | undefined =>
+  i18next.getResource(language, "translation", area) === undefined ? "en" : undefined;

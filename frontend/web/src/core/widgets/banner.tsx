@@ -14,11 +14,7 @@ interface BannerProps {
 export function Banner({ look, sign, role = "status", title, words, children }: BannerProps) {
   return (
     <div class={`row banner ${look}`} role={role}>
-      {sign !== undefined && (
-        <span class="banner-sign" aria-hidden="true">
-          {sign}
-        </span>
-      )}
+      {sign !== undefined && <span aria-hidden="true">{sign}</span>}
       <p>
         <strong>{title}</strong> {words}
       </p>

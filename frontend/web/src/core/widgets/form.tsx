@@ -1,6 +1,9 @@
 /** Parts of a form: choices, numbers, and the reason of a rejection. */
 import { useEffect, useId, useRef, useState } from "preact/hooks";
+import { RefusedError } from "../api/errors";
+import type { Quantity } from "../schema";
 import { problem } from "../state/actions";
+import { explainRefusal } from "../state/refusal";
 import { t } from "../text/t";
 
 export interface Option<T extends string> {
@@ -48,8 +51,16 @@ export function Choice<T extends string>(props: ChoiceProps<T>) {
   );
 }
 
+interface ProblemProps {
+  control: string;
+  id?: string;
+  /** The end of the field's path in the request, and how it writes its value. */
+  path?: string | undefined;
+  quantity?: Quantity;
+}
+
 /** Reason why the server rejected a control's request; scrolled into view in its panel. */
-export function Problem({ control, id }: { control: string; id?: string }) {
+export function Problem({ control, id, path, quantity }: ProblemProps) {
   const line = useRef<HTMLParagraphElement>(null);
   const mine = problem.value?.control === control ? problem.value : null;
   const again = mine?.retry;
@@ -58,7 +69,9 @@ export function Problem({ control, id }: { control: string; id?: string }) {
   }, [mine]);
   return (
     <p class="problem" id={id} role="alert" hidden={mine === null} ref={line}>
-      {mine?.message}
+      {mine?.error instanceof RefusedError
+        ? explainRefusal(mine.error, path, quantity)
+        : mine?.message}
       {again && (
         <>
           {" "}

@@ -21,7 +21,7 @@ interface PageProps {
 /** A full page: title, error of the last request, content. */
 export function Page({ title, lead, problem, aside, children, class: look = "" }: PageProps) {
   return (
-    <main class={`page ${look}`} aria-label={title}>
+    <main class={`page column scroller ${look}`} aria-label={title}>
       <div class="spread page-head">
         <div>
           <h2>{title}</h2>
@@ -69,7 +69,7 @@ export function Boxes({ offered, chosen, isFixed, onChange }: BoxesProps) {
   return (
     <div class="boxes">
       {offered.map(({ name, title }) => (
-        <label key={name}>
+        <label key={name} class="line check">
           <input
             type="checkbox"
             checked={chosen.includes(name)}
@@ -81,7 +81,7 @@ export function Boxes({ offered, chosen, isFixed, onChange }: BoxesProps) {
                   : [...chosen, name],
               )
             }
-          />{" "}
+          />
           {title}
         </label>
       ))}

@@ -140,10 +140,7 @@ export function SortHead({ column, words, sort, onSort }: SortHeadProps) {
         title={words.hint}
         onClick={() => onSort(nextSort(sort, column.key, column.isDownFirst ?? false))}
       >
-        {words.name}
-        <span class="sort-sign" aria-hidden="true">
-          {isSorted ? (isDown ? "▼" : "▲") : ""}
-        </span>
+        {words.name} <span aria-hidden="true">{isSorted ? (isDown ? "▼" : "▲") : ""}</span>
       </button>
     </th>
   );

@@ -1,7 +1,7 @@
 /** Parts of an adversary that are edited in other terms than its own. */
 import type { Adversary, Scenario, Term } from "../../core/api/falsifications";
-import { kindsOf, type Schema } from "../../core/forms/schema";
 import type { Span } from "../../core/plots/spans";
+import { kindsOf, type Schema } from "../../core/schema";
 import { t } from "../../core/text/t";
 
 export const BODIES = ["link", "motor1", "motor2"] as const;

@@ -13,13 +13,10 @@ import {
   saveScenario,
   startSearch,
   stopSearch,
-  type Trace,
-  traceLaws,
 } from "../../core/api/falsifications";
 import type { Law } from "../../core/api/types";
 import { isJobRunning } from "../../core/jobs/progress";
 import { createWork } from "../../core/jobs/work";
-import { isObserver } from "../../core/state/access";
 import { goTo, place, storeLaws } from "../../runs/list/place";
 
 const PAPERS_LAW = "ndobc";
@@ -29,9 +26,6 @@ export const adversaries = signal<readonly AdversaryState[]>([]);
 export const searches = signal<readonly Search[] | null>(null);
 export const savedScenarios = signal<readonly SavedScenario[] | null>(null);
 export const search = signal<Search | null>(null);
-/** The outcomes of the laws, with their scenario, laws and place. */
-export const lastTrace = signal<{ at: string; key: string; trace: Trace } | null>(null);
-
 const NO_SELECTION = { search: "", scenario: "", laws: [] as readonly Law[] };
 
 /** What the address names, else the latest search or a saved scenario; before these the example. */
@@ -43,17 +37,12 @@ export const selection = computed(() => {
   return { search: latest, scenario, laws: inAddress.laws };
 });
 
-const selectionKey = computed(() => `${selection.value.search} ${selection.value.scenario}`);
+export const selectionKey = computed(() => `${selection.value.search} ${selection.value.scenario}`);
 
-/** The outcomes of the laws in the selected scenario, of the latest request. */
-export const shownTrace = computed(() =>
-  lastTrace.value?.at === selectionKey.value ? lastTrace.value.trace : null,
-);
-
-const savedScenario = computed(() =>
+/** Undefined unless a saved scenario is selected. */
+export const savedScenario = computed(() =>
   savedScenarios.value?.find(({ name }) => name === selection.value.scenario),
 );
-export const isExample = computed(() => savedScenario.value?.is_example ?? false);
 
 /** The selected scenario: a saved one, or the simplest or the worst one of a search. */
 export const scenario = computed((): Scenario | null => {
@@ -93,8 +82,8 @@ export const laws = computed((): readonly Law[] => {
 
 export const setLaws = (names: readonly Law[]): void => storeLaws(selection.peek(), names);
 
-const { attempt, perform, poll, read, run, ...work } = createWork();
-export const { problem, isBusy, leave, stopFollowing } = work;
+const { perform, poll, read, run, ...work } = createWork();
+export const { attempt, problem, isBusy, leave, stopFollowing } = work;
 
 export const openLists = () =>
   read(
@@ -125,32 +114,6 @@ export async function follow(id: string): Promise<void> {
   );
   if (pollEnd === "ended") void openLists();
   else if (pollEnd === "refused") search.value = null;
-}
-
-export const keyOf = (shown: Scenario, names: readonly Law[]): string =>
-  JSON.stringify([shown.loads, shown.settings, shown.base, shown.duration_s, names]);
-
-let isTracing = false;
-
-/** Run the laws in the selected scenario; later requests are queued. */
-export async function traceSelection(): Promise<void> {
-  if (isTracing || isObserver.peek()) return;
-  isTracing = true;
-  try {
-    for (;;) {
-      const [shown, names, here] = [scenario.peek(), laws.peek(), selectionKey.peek()];
-      if (shown === null) return;
-      const key = keyOf(shown, names);
-      const last = lastTrace.peek();
-      if (last?.key === key && last.at === here) return;
-      const traces = await attempt(() => traceLaws(shown, names));
-      if (here !== selectionKey.peek()) continue;
-      if (traces === null) return;
-      lastTrace.value = { at: here, key, trace: traces };
-    }
-  } finally {
-    isTracing = false;
-  }
 }
 
 /** Start and select it; throws if it is rejected. */

@@ -52,7 +52,7 @@ function Row({ trace, lineStyle, onDraw }: RowProps) {
       <th scope="row">
         <button
           type="button"
-          class="nowrap falsifier-law"
+          class="nowrap"
           aria-pressed={lineStyle !== undefined}
           title={t("falsifier.draw", { law: title })}
           onClick={() => onDraw(trace.law)}
@@ -86,7 +86,7 @@ function Row({ trace, lineStyle, onDraw }: RowProps) {
 function Choice() {
   const tested = scenario.value && findingOf(scenario.value)?.law;
   return (
-    <details class="falsifier-choice">
+    <details>
       <summary>{t("falsifier.choice")}</summary>
       <LawBoxes laws={laws.value} onChange={setLaws} />
       <div class="row">

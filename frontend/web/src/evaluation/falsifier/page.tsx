@@ -12,8 +12,6 @@ import { ResultMenu } from "../campaign/resultmenu";
 import {
   findingOf,
   follow,
-  keyOf,
-  lastTrace,
   laws,
   leave,
   openLists,
@@ -22,13 +20,12 @@ import {
   scenario,
   searches,
   selection,
-  shownTrace,
-  traceSelection,
 } from "./falsifier";
 import { Laws } from "./laws";
 import { type DrawnLaw, TracePlots } from "./picture";
 import { ScenarioResult } from "./scenarioresult";
 import { Start } from "./start";
+import { keyOf, lastTrace, shownTrace, traceSelection } from "./traces";
 
 const MAX_DRAWN = 4;
 

@@ -115,7 +115,7 @@ function ErrorChart(props: ChartProps) {
           ))}
       </h4>
       <div
-        class={`falsifier-canvas is-${chart}`}
+        class="chart"
         ref={host}
         role="img"
         aria-label={`${title}, ${unit}`}

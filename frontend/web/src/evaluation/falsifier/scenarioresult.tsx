@@ -11,12 +11,12 @@ import {
   cancel,
   findingOf,
   isBusy,
-  isExample,
+  savedScenario,
   saveSelection,
   search,
   selection,
-  shownTrace,
 } from "./falsifier";
+import { shownTrace } from "./traces";
 
 /** A link to the selection; the link to a search is valid as long as the lab runs. */
 function Link() {
@@ -38,7 +38,7 @@ function Keep({ offered }: { offered: string }) {
   const [name, setName] = useState(offered);
   return (
     <form
-      class="row falsifier-acts"
+      class="row"
       onSubmit={(event) => {
         event.preventDefault();
         void saveSelection(name);
@@ -111,7 +111,8 @@ export function ScenarioResult({ scenario }: { scenario: Scenario | null }) {
   return (
     <section class="surface card wide" aria-label={name || at?.title}>
       <h3>
-        {isExample.value && <Example />} {name !== "" ? `${name}: ${title}` : at?.title}
+        {savedScenario.value?.is_example && <Example />}{" "}
+        {name !== "" ? `${name}: ${title}` : at?.title}
       </h3>
       {at && (
         <JobProgress
@@ -131,7 +132,7 @@ export function ScenarioResult({ scenario }: { scenario: Scenario | null }) {
           {at && at.steps.length > 0 && (
             <details>
               <summary>{t("falsifier.steps", { count: at.steps.length })}</summary>
-              <ol class="bullets small falsifier-steps">
+              <ol class="bullets small cells">
                 {at.steps.map((step, number) => (
                   <li key={`${number} ${step}`}>{step}</li>
                 ))}
@@ -139,7 +140,7 @@ export function ScenarioResult({ scenario }: { scenario: Scenario | null }) {
             </details>
           )}
           {!isUnderWay && (
-            <div class="row falsifier-acts">
+            <div class="row divided">
               {at && <Keep key={at.id} offered={`${at.law}-${at.id.slice(0, 4)}`} />}
               <a
                 class="button"

@@ -4,7 +4,7 @@ import type { Adversary, AdversaryState } from "../../core/api/falsifications";
 import { FieldError } from "../../core/forms/controls";
 import { Fields, RequestFields } from "../../core/forms/fields";
 import { useRequest } from "../../core/forms/request";
-import { readField } from "../../core/forms/schema";
+import { readField } from "../../core/schema";
 import { usableLaws } from "../../core/state/laws";
 import { t } from "../../core/text/t";
 import { SelectField } from "../../core/widgets/form";

@@ -50,7 +50,7 @@ export function Pareto() {
       <h3 id="ranking-pareto">{t("ranking.pareto")}</h3>
       <p class="hint">{t("ranking.paretoHint")}</p>
       <svg
-        class="drawing ranking-pareto"
+        class="drawing"
         viewBox={`0 0 ${WIDTH} ${HEIGHT}`}
         role="img"
         aria-label={t("ranking.pareto")}
@@ -78,10 +78,12 @@ export function Pareto() {
           {t("ranking.stiffnessAxis")}
         </text>
         {points.map(({ row, position, stiffness, torque }) => (
-          <g key={row.key} class={chosen.value === row.key ? "is-chosen" : ""}>
+          <g key={row.key} class={chosen.value === row.key ? "strong" : ""}>
             <circle
               cx={left(position)}
               cy={top(stiffness)}
+              fill={`var(--plot-${chosen.value === row.key ? "orange" : "blue"})`}
+              fill-opacity="0.55"
               r={Math.max(3, LARGEST * Math.sqrt(torque / most))}
             >
               <title>

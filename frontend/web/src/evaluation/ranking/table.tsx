@@ -40,7 +40,7 @@ interface TableProps {
 export function RankingTable({ columns = COLUMNS }: TableProps) {
   return (
     <section class="surface scroll" aria-label={t("ranking.table")}>
-      <table class="table wide-table ranking-table">
+      <table class="table wide-table">
         <caption class="visually-hidden">{t("ranking.tableHint")}</caption>
         <thead>
           <tr>

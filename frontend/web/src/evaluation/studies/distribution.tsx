@@ -5,7 +5,8 @@ import { t } from "../../core/text/t";
 import { columnOf, endedInFault, lawLineStyles, marks, marksOf, screenValues } from "./drawnrows";
 import { distribute, extentOf, scaleOf, spreadsByRatios } from "./points";
 import { ColumnChoice } from "./scatter";
-import { axes, brush, rows, study } from "./studies";
+import { axes, brush, study } from "./selection";
+import { rows } from "./studies";
 import { nameColumn } from "./studyview";
 import { LawName } from "./tables";
 
@@ -53,7 +54,7 @@ export function Distribution() {
       <h3>{t("studies.distribution")}</h3>
       <ColumnChoice part="metric" label={t("studies.metric")} isMetric />
       <div
-        class="studies-canvas is-low"
+        class="studies-canvas"
         ref={host}
         role="img"
         aria-label={`${t("studies.distribution")}: ${column ? nameColumn(column) : metric}`}

@@ -5,7 +5,8 @@ import { lineStylesOfLaws } from "../../core/plots/linestyles";
 import type { Axis } from "./frame";
 import { markBrushed, scaleOf, spreadNames, spreadsByRatios } from "./points";
 import { type Rows, valuesOf } from "./rows";
-import { axes, brush, rows, shownLaw, study } from "./studies";
+import { axes, brush, shownLaw, study } from "./selection";
+import { rows } from "./studies";
 import { factorOf, nameColumn, type Plane } from "./studyview";
 
 export const columnOf = (name: string): StudyColumn | undefined =>

@@ -4,8 +4,9 @@ import { formatNumber } from "../../core/units";
 import { planes, shownMarks, succeeded } from "./drawnrows";
 import { countCells, cutBins } from "./points";
 import { valuesOf } from "./rows";
+import { axes, brush, setBrush } from "./selection";
 import { shareOf } from "./shares";
-import { axes, brush, rows, setBrush } from "./studies";
+import { rows } from "./studies";
 
 const WIDTH = 320;
 const HEIGHT = 240;
@@ -32,6 +33,7 @@ export function SuccessMap() {
       <svg
         class="drawing sunken studies-map"
         viewBox={`0 0 ${WIDTH} ${HEIGHT}`}
+        height="230"
         preserveAspectRatio="none"
         role="img"
         aria-label={`${t("studies.map")}: ${up.label} / ${across.label}`}

@@ -12,26 +12,28 @@ import { brushedCount } from "./drawnrows";
 import { SuccessMap } from "./map";
 import { Scatter } from "./scatter";
 import { SelectedRun } from "./selectedrun";
+import {
+  brush,
+  chosenName,
+  EVERY_LAW,
+  list,
+  setBrush,
+  setView,
+  shownLaw,
+  study,
+} from "./selection";
 import { Start } from "./start";
 import {
   attempt,
-  brush,
   cancel,
-  chosenName,
-  EVERY_LAW,
   follow,
   isBusy,
   leave,
-  list,
   openList,
   problem,
   remove,
   rows,
-  setBrush,
-  setView,
-  shownLaw,
   startNewStudy,
-  study,
 } from "./studies";
 import { LawTable, Sensitivity } from "./tables";
 
@@ -131,7 +133,7 @@ function StudyView({ shownStudy }: { shownStudy: Study }) {
         </div>
         <Progress shownStudy={shownStudy} />
         {count > 0 && (
-          <p class="row studies-brushed">
+          <p class="row">
             <span class="muted">{t("studies.marks")}</span>{" "}
             <b>
               {brushedCount.value === count

@@ -18,18 +18,9 @@ import {
 import { describePlane, showBrush } from "./frame";
 import { findNearest } from "./points";
 import { valuesOf } from "./rows";
-import {
-  axes,
-  brush,
-  chosenName,
-  fetchRows,
-  rows,
-  selectedRows,
-  selectRow,
-  setBrush,
-  setView,
-  study,
-} from "./studies";
+import { selectRow } from "./selectedruns";
+import { axes, brush, chosenName, selectedRows, setBrush, setView, study } from "./selection";
+import { fetchRows, rows } from "./studies";
 import { axesOf, nameColumn, type Plane } from "./studyview";
 
 const REACH_PX = 14;

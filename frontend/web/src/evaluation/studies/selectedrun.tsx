@@ -3,7 +3,9 @@ import { writeFault } from "../../core/state/faults";
 import { titleOf } from "../../core/state/laws";
 import { t } from "../../core/text/t";
 import { formatNumber } from "../../core/units";
-import { isBusy, selectedRows, showRuns, study } from "./studies";
+import { showRuns } from "./selectedruns";
+import { selectedRows, study } from "./selection";
+import { isBusy } from "./studies";
 import { factorOf, nameColumn } from "./studyview";
 
 const outcomeOf = (row: StudyRow): string =>

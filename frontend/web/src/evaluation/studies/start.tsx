@@ -3,11 +3,12 @@ import { useState } from "preact/hooks";
 import { checkStudy, type StudyPlan } from "../../core/api/studies";
 import { RequestFields } from "../../core/forms/fields";
 import { useRequest } from "../../core/forms/request";
-import type { Values } from "../../core/forms/schema";
+import type { Values } from "../../core/schema";
 import { titleOf, usableLaws } from "../../core/state/laws";
 import { t } from "../../core/text/t";
 import { OWN, SourceField } from "../campaign/sourcefield";
-import { isBusy, list, startNewStudy } from "./studies";
+import { list } from "./selection";
+import { isBusy, startNewStudy } from "./studies";
 import { nameColumn } from "./studyview";
 
 const FIRST = "load";

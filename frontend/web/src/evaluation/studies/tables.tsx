@@ -8,8 +8,9 @@ import { t } from "../../core/text/t";
 import { formatCount, formatNumber } from "../../core/units";
 import { Table } from "../../core/widgets/tables";
 import { columnOf, endedInFault, lawLineStyles, marksOf, succeeded } from "./drawnrows";
+import { axes, brush, study } from "./selection";
 import { shareOf } from "./shares";
-import { axes, brush, indices, study, summary } from "./studies";
+import { indices, summary } from "./studies";
 import { factorOf, nameColumn, shownUnit } from "./studyview";
 
 /** An estimate with its interval times a factor, or a note that there is no interval. */
@@ -141,7 +142,7 @@ export function Sensitivity() {
             {Object.keys(total)
               .sort((a, b) => (total[b]?.value ?? 0) - (total[a]?.value ?? 0))
               .map((name) => (
-                <div key={name}>
+                <div key={name} class="cells" style={{ "--cell": "180px" }}>
                   <dt>{columnOf(name)?.label ?? name}</dt>
                   {([own[name], total[name]] as const).map((estimate, at) => (
                     <dd

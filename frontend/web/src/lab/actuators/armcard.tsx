@@ -3,12 +3,13 @@ import { useEffect, useState } from "preact/hooks";
 import { type ArmRow, openArm, readArms } from "../../core/api/arm";
 import { explain } from "../../core/state/actions";
 import { actuators } from "../../core/state/actuators";
+import { listJoints } from "../../core/state/joints";
 import { t } from "../../core/text/t";
 import { Choice, SelectField } from "../../core/widgets/form";
 import { CardHead, useOpening } from "./opening";
 
 /** The joints' actuators: of the arm, until the user chooses others. */
-type Chosen = readonly [string, string];
+type Chosen = readonly string[];
 
 interface ArmCardProps {
   onProblem: (problem: string) => void;
@@ -30,7 +31,8 @@ export function ArmCard({ onProblem }: ArmCardProps) {
     onProblem,
   );
   if (arm === undefined) return null;
-  const [first, second] = chosen ?? [arm.actuator, arm.actuator];
+  const own = chosen ?? arm.links.chain.map(() => arm.actuator);
+  const most = arm.links.chain.length;
   const names = (actuators.value ?? []).map((actuator) => actuator.name);
   const titleOf = (of: string) =>
     actuators.value?.find((actuator) => actuator.name === of)?.title ?? of;
@@ -55,20 +57,27 @@ export function ArmCard({ onProblem }: ArmCardProps) {
       />
       <p translate>{arm.description}</p>
       <div class="form halves">
-        <SelectField
-          label={t("arm.actuatorOf", { joint: 1 })}
-          value={first}
-          options={names}
-          name={titleOf}
-          onChoose={(next) => setChosen([next, second])}
-        />
-        <SelectField
-          label={t("arm.actuatorOf", { joint: 2 })}
-          value={second}
-          options={names}
-          name={titleOf}
-          onChoose={(next) => setChosen([first, next])}
-        />
+        {most > 1 && (
+          <SelectField
+            label={t("arm.jointCount")}
+            value={String(own.length)}
+            options={listJoints(most).map(String)}
+            name={(count) => count}
+            onChoose={(next) =>
+              setChosen(listJoints(Number(next)).map((joint) => own[joint - 1] ?? arm.actuator))
+            }
+          />
+        )}
+        {own.map((actuator, index) => (
+          <SelectField
+            key={index}
+            label={t("arm.actuatorOf", { joint: index + 1 })}
+            value={actuator}
+            options={names}
+            name={titleOf}
+            onChoose={(next) => setChosen(own.map((name, at) => (at === index ? next : name)))}
+          />
+        ))}
       </div>
     </section>
   );

@@ -111,7 +111,7 @@ export function ActuatorsPage() {
         <p class="hint">{t("actuators.loading")}</p>
       ) : (
         <>
-          <div class="actuators-choice">
+          <div>
             <Choice
               label={t("actuators.choose")}
               options={[

@@ -7,10 +7,12 @@ import {
   type Point,
   pathOf,
   placeLinks,
+  placeTip,
   reachOf,
   type StiffnessEllipse,
 } from "../../core/armgeometry";
 import { shownRing, shownSpan } from "../../core/plots/span";
+import { limitRate } from "../../core/rate";
 import type { SampleRing } from "../../core/stream/ring";
 import { t } from "../../core/text/t";
 import { formatNumber } from "../../core/units";
@@ -24,6 +26,9 @@ const TIP_S = 3;
 const REFERENCE_S = 8;
 const PATH_POINTS = 160;
 const PATH_MS = 60;
+
+/** Number of the newest sample that the plots show. */
+const newestShown = (ring: SampleRing): number => ring.lowerBound(shownSpan().to + 1e-9) - 1;
 
 interface Arm {
   lengths: Lengths;
@@ -41,24 +46,16 @@ function describeExtremes({ least, greatest }: StiffnessEllipse): string {
   return t("arm.extremes", { least: `${low}`, greatest: `${high}`, unit });
 }
 
-/** Both joints of an arm (0: the own, 1: the comparison) at a sample. */
-const readJoints = (
-  ring: SampleRing,
-  channel: Channel,
-  index: number,
-  arm = 0,
-): [number, number] => [
-  ring.valueAt(channel, index, 2 * arm + 1),
-  ring.valueAt(channel, index, 2 * arm + 2),
-];
-
 export class ArmPicture {
   /** The tip at the newest sample; null before the first. */
   tip: Point | null = null;
   /** The pointer that pulls it. */
   pointer: Point | null = null;
   readonly #scale: number;
-  #pathAt = 0;
+  readonly #paths = limitRate(
+    () => this.#drawPaths(),
+    () => PATH_MS,
+  );
 
   constructor(
     private readonly svg: SVGSVGElement,
@@ -71,17 +68,21 @@ export class ArmPicture {
   /** The newest sample that the plots show. */
   draw(): void {
     const ring = shownRing();
-    const newest = ring.lowerBound(shownSpan().to + 1e-9) - 1;
+    const newest = newestShown(ring);
     for (const part of this.svg.querySelectorAll<SVGPathElement>("[data-links]")) {
-      this.#drawLinks(part, readJoints(ring, "position_rad", newest, Number(part.dataset.links)));
+      this.#drawLinks(part, this.#read(ring, "position_rad", newest, Number(part.dataset.links)));
     }
-    const q = readJoints(ring, "position_rad", newest);
+    const q = this.#read(ring, "position_rad", newest);
     if (q.every(Number.isFinite)) {
       this.#drawTip(q);
-      this.#drawEllipse(q, readJoints(ring, "stiffness_nm_per_rad", newest));
+      this.#drawEllipse(q, this.#read(ring, "stiffness_nm_per_rad", newest));
     }
-    if (performance.now() - this.#pathAt < PATH_MS) return;
-    this.#pathAt = performance.now();
+    this.#paths.request();
+  }
+
+  #drawPaths(): void {
+    const ring = shownRing();
+    const newest = newestShown(ring);
     for (const part of this.svg.querySelectorAll<SVGPathElement>("[data-path]")) {
       const { path } = part.dataset;
       const points =
@@ -90,6 +91,14 @@ export class ArmPicture {
           : this.#listTips(ring, newest, "position_rad", TIP_S, Number(path));
       part.setAttribute("d", pathOf(points, this.#scale));
     }
+  }
+
+  /** The joints of an arm (0: the own, 1: the comparison) at a sample. */
+  #read(ring: SampleRing, channel: Channel, index: number, arm = 0): number[] {
+    const { lengths } = this.arm;
+    return lengths.map((_, joint) =>
+      ring.valueAt(channel, index, lengths.length * arm + joint + 1),
+    );
   }
 
   #at({ x, y }: Point): string {
@@ -102,25 +111,26 @@ export class ArmPicture {
     this.#find(name)?.setAttribute("transform", `translate(${this.#at(point)})`);
   }
 
-  #drawLinks(part: SVGPathElement, q: readonly [number, number]): void {
+  #drawLinks(part: SVGPathElement, q: readonly number[]): void {
     const isKnown = q.every(Number.isFinite);
     part.style.visibility = isKnown ? "visible" : "hidden";
     if (!isKnown) return;
-    const { elbow, tip } = placeLinks(this.arm.lengths, ...q);
-    part.setAttribute("d", `M0 0L${this.#at(elbow)}L${this.#at(tip)}`);
+    const ends = placeLinks(this.arm.lengths, q).map((end) => `L${this.#at(end)}`);
+    part.setAttribute("d", `M0 0${ends.join("")}`);
   }
 
-  #drawTip(q: readonly [number, number]): void {
-    const { elbow, tip } = placeLinks(this.arm.lengths, ...q);
+  #drawTip(q: readonly number[]): void {
+    const joints = placeLinks(this.arm.lengths, q);
+    const tip = joints.pop() as Point;
     this.tip = tip;
-    this.#move("elbow", elbow);
+    for (const [index, joint] of joints.entries()) this.#move(`joint="${index}"`, joint);
     this.#move("tip", tip);
     this.#move("mass", tip);
     const band = this.pointer === null ? "" : `M${this.#at(tip)}L${this.#at(this.pointer)}`;
     this.#find("band")?.setAttribute("d", band);
   }
 
-  #drawEllipse(q: readonly [number, number], stiffness: readonly [number, number]): void {
+  #drawEllipse(q: readonly number[], stiffness: readonly number[]): void {
     const { lengths, most } = this.arm;
     const ellipse = ellipseOf(lengths, q, stiffness);
     const part = this.#find("ellipse");
@@ -150,8 +160,8 @@ export class ArmPicture {
     const stride = Math.max(1, Math.ceil((newest - first) / PATH_POINTS));
     const points: (Point | null)[] = [];
     for (let index = newest; index >= first; index -= stride) {
-      const q = readJoints(ring, channel, index, arm);
-      points.push(q.every(Number.isFinite) ? placeLinks(this.arm.lengths, ...q).tip : null);
+      const q = this.#read(ring, channel, index, arm);
+      points.push(q.every(Number.isFinite) ? placeTip(this.arm.lengths, q) : null);
     }
     return points;
   }

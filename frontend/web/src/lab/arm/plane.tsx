@@ -4,12 +4,12 @@
  */
 import { useEffect, useMemo, useRef } from "preact/hooks";
 import type { SessionState } from "../../core/api/types";
-import { type Lengths, type Point, pullOf, reachOf } from "../../core/armgeometry";
+import { type Lengths, lengthsOf, type Point, pullOf, reachOf } from "../../core/armgeometry";
 import { addDrawing } from "../../core/plots/frame";
 import { lineStyleOfLane } from "../../core/plots/linestyles";
 import { alsoDrawn } from "../../core/plots/setups";
 import { takesCommands } from "../../core/state/control";
-import { armOf } from "../../core/state/joints";
+import { armOf, configurationsOf } from "../../core/state/joints";
 import { hungAtTip } from "../../core/state/plant";
 import { tipPush } from "../../core/state/push";
 import { samples } from "../../core/state/session";
@@ -33,27 +33,26 @@ const ARROWS: Readonly<Record<string, Point>> = {
 
 const DRAWN = ["position_rad", "position_reference_rad", "stiffness_nm_per_rad"] as const;
 
-const lengthsOf = (state: SessionState): Lengths => {
-  const links = armOf(state)?.links;
-  return { length1: links?.length1_m ?? 1, length2: links?.length2_m ?? 1 };
+const lengthsIn = (state: SessionState): Lengths => {
+  const arm = armOf(state);
+  return arm === null ? [1] : lengthsOf(arm.links);
 };
 
-/** Greatest stiffness of the actuators of both joints, N·m/rad. */
-const mostStiffness = ({ configuration }: SessionState): number =>
-  Math.max(
-    configuration.limits.stiffness_max_nm_per_rad,
-    configuration.arm?.joint2.limits.stiffness_max_nm_per_rad ?? 0,
-  );
+/** Greatest stiffness of the actuators of all joints, N·m/rad. */
+const mostStiffness = (state: SessionState): number =>
+  Math.max(...configurationsOf(state).map(({ limits }) => limits.stiffness_max_nm_per_rad));
 
 /** Limited by the motors, and with soft springs by their deflection. */
 function mostForce(state: SessionState): number {
-  const stiffness = [1, 2].map((lane) => samples.ring.newest("stiffness_nm_per_rad", lane));
+  const joints = configurationsOf(state);
+  const stiffness = joints.map((_, joint) =>
+    samples.ring.newest("stiffness_nm_per_rad", joint + 1),
+  );
   const torque = Math.min(
-    state.configuration.limits.torque1_nm,
-    state.configuration.arm?.joint2.limits.torque1_nm ?? Infinity,
+    ...joints.map(({ limits }) => limits.torque1_nm),
     DEFLECTION_RAD * Math.min(...stiffness.filter(Number.isFinite)),
   );
-  return (FORCE_SHARE * torque) / reachOf(lengthsOf(state));
+  return (FORCE_SHARE * torque) / reachOf(lengthsIn(state));
 }
 
 /** A point of the pointer in the plane, m. */
@@ -72,10 +71,10 @@ export function TipPlane({ state, note }: { state: SessionState; note?: string }
   const svg = useRef<SVGSVGElement>(null);
   const readout = useRef<HTMLElement>(null);
   const picture = useRef<ArmPicture | null>(null);
-  const lengths = useMemo(() => lengthsOf(state), [state.configuration.arm?.links]);
+  const lengths = useMemo(() => lengthsIn(state), [state.configuration.arm?.links]);
   const most = mostStiffness(state);
   const looks = state.lanes
-    .filter(({ lane }) => lane % 2 === 1)
+    .filter(({ joint }) => joint === 1)
     .map(({ lane, segments }) => lineStyleOfLane(segments.at(-1)?.line_style ?? 0, lane === 1));
   const walls = state.loads.flatMap(({ active, load }) =>
     active && load.kind === "wall" ? [load] : [],
@@ -120,10 +119,10 @@ export function TipPlane({ state, note }: { state: SessionState; note?: string }
   const force = tipPush.held.value;
   return (
     <section class="surface tip-plane" aria-label={t("arm.plane")}>
-      <div class="row tip-plane-head">
+      <div class="row">
         <h2>{t("arm.plane")}</h2>
-        <p class="hint tabular tip-stiffness" title={t("arm.ellipseHint")}>
-          <span class="tip-ellipse-mark" aria-hidden="true" />
+        <p class="hint tabular" title={t("arm.ellipseHint")}>
+          <i class="dot" style={{ background: "var(--plot-purple)" }} aria-hidden="true" />
           {t("arm.stiffness")} <strong class="number" ref={readout} />
         </p>
         <span
@@ -139,7 +138,7 @@ export function TipPlane({ state, note }: { state: SessionState; note?: string }
         {/* biome-ignore lint/a11y/useSemanticElements: a picture with a part that is dragged */}
         <svg
           ref={svg}
-          class="fill"
+          class="drawing fill grab"
           viewBox={`${-HALF} ${-ABOVE * HALF} ${2 * HALF} ${(1 + ABOVE) * HALF}`}
           role="group"
           aria-label={t("arm.planeLabel")}
@@ -155,8 +154,8 @@ export function TipPlane({ state, note }: { state: SessionState; note?: string }
           onPointerCancel={release}
           onLostPointerCapture={release}
         >
-          <circle class="tip-reach" r={scale * reachOf(lengths)} />
-          <path class="tip-axes" d={`M${-HALF} 0H${HALF}M0 ${-HALF}V${HALF}`} />
+          <circle class="grid" stroke-dasharray="2 6" r={scale * reachOf(lengths)} />
+          <path class="grid" d={`M${-HALF} 0H${HALF}M0 ${-HALF}V${HALF}`} />
           {walls.map(({ normal_rad: normal, distance_m: distance }) => (
             <g
               key={`${normal} ${distance}`}
@@ -171,21 +170,23 @@ export function TipPlane({ state, note }: { state: SessionState; note?: string }
               />
             </g>
           ))}
-          <path class="tip-reference" data-path="reference" />
+          <path class="outline" stroke-width="2" stroke-dasharray="2 5" data-path="reference" />
           {[...looks.entries()].reverse().map(([arm, { colour, dash }]) => {
-            const stroke = `var(--plot-${colour})`;
+            const width = arm === 0 ? 12 : 5;
             return (
-              <g key={arm} class={arm === 0 ? "tip-arm is-own" : "tip-arm"} style={{ stroke }}>
-                <path class="tip-path" data-path={arm} stroke-dasharray={dash.join(" ")} />
-                <path class="tip-links" data-links={arm} />
+              <g key={arm} stroke-width="2.5" style={{ "--tone": `var(--plot-${colour})` }}>
+                <path class="outline" data-path={arm} stroke-dasharray={dash.join(" ")} />
+                <path class="outline" data-links={arm} stroke-width={width} />
               </g>
             );
           })}
           <ellipse class="tip-ellipse" data-ellipse />
-          <path class="tip-band" data-band />
-          {mass > 0 && <path class="tip-mass" data-mass d="M0 0V12M-9 12H9L13 30H-13Z" />}
+          <path class="outline is-warn" stroke-width="4" stroke-dasharray="9 5" data-band />
+          {mass > 0 && <path class="solid is-warn" data-mass d="M0 0V12M-9 12H9L13 30H-13Z" />}
           <circle class="tip-joint" r="6" />
-          <circle class="tip-joint" data-elbow r="6" />
+          {lengths.slice(1).map((_, index) => (
+            <circle key={index} class="tip-joint" data-joint={index} r="6" />
+          ))}
           {/* biome-ignore lint/a11y/useSemanticElements: a part of the picture that is dragged */}
           <g
             class="tip-handle"
@@ -199,7 +200,7 @@ export function TipPlane({ state, note }: { state: SessionState; note?: string }
             onBlur={release}
           >
             <circle class="tip-grip" r="17" />
-            <circle class="tip-point" r="7" />
+            <circle class="solid is-warn" r="7" />
           </g>
         </svg>
       </div>

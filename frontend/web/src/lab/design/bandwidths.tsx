@@ -1,8 +1,8 @@
 import { useId } from "preact/hooks";
+import { positionOf, type SliderRange, STEPS, valueAt } from "../../core/scale";
 import { t } from "../../core/text/t";
 import { formatInput, roundTo } from "../../core/units";
 import { NumberInput } from "../../core/widgets/numberinput";
-import { positionOf, type SliderRange, STEPS, valueAt } from "../../core/widgets/scale";
 import { draft, type Group, setDraftObserver, setDraftPoles } from "./draft";
 import { allAt, areTogether, BANDWIDTH_BOUNDS, bandwidthOf } from "./poles";
 
@@ -74,7 +74,7 @@ export function Bandwidths() {
   if (observer === undefined) return null;
   const isSpread = observer.some((beta) => beta !== observer[0]);
   return (
-    <div class="bandwidths">
+    <div>
       <PolesRow group="position" />
       <PolesRow group="stiffness" />
       <Row

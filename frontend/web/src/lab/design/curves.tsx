@@ -19,7 +19,7 @@ export interface Curve {
   isDoubtful?: boolean;
 }
 
-const LOOKS = {
+export const LOOKS = {
   tried: { colour: "blue", width: 2, dash: [], alpha: 1 },
   present: { colour: "mark", width: 1.5, dash: [5, 3], alpha: 1 },
   each: { colour: "mark", width: 1, dash: [], alpha: 0.65 },
@@ -77,8 +77,8 @@ export function Curves({ title, summary, x, y, curves, note, caveat }: CurvesPro
       <figcaption class="small strong">
         {title} {caveat && <span class="bad">{caveat}</span>}
       </figcaption>
-      <div class="curves-canvas" ref={host} role="img" aria-label={summary} />
-      {note && <p class="curves-note bad small strong">{note}</p>}
+      <div class="chart" ref={host} role="img" aria-label={summary} />
+      {note && <p class="over bad small strong">{note}</p>}
     </figure>
   );
 }

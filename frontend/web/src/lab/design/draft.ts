@@ -1,12 +1,11 @@
-/** The draft design: its settings, its predicted behaviour, and the settings in use. */
-
+/** The draft design: its settings, and the settings in use. */
 import { computed, signal } from "@preact/signals";
 import { putGains, putObserver } from "../../core/api/client";
-import { type Prediction, predict } from "../../core/api/design";
+import type { DesignRequest } from "../../core/api/design";
 import type { Edit } from "../../core/api/operations";
 import type { Configuration, SessionState } from "../../core/api/types";
 import { perform } from "../../core/state/actions";
-import { settings as session } from "../../core/state/arm";
+import { isArm, settings as session, settingsJoint } from "../../core/state/arm";
 import { type Pole, type Poles, polesOf, toRequest } from "./poles";
 
 export type Group = "position" | "stiffness";
@@ -19,18 +18,10 @@ export interface Draft {
 
 export const isOpen = signal(false);
 const changedDraft = signal<Draft | null>(null);
-export const draftPrediction = signal<Prediction | null>(null);
-export const currentPrediction = signal<Prediction | null>(null);
-export const isPredicting = signal(false);
 export const isApplying = signal(false);
 
 /** Settings when the draft was started. */
 let baseState: SessionState | null = null;
-
-const PAUSE_MS = 90;
-const RETRY_MS = 1500;
-let timer: ReturnType<typeof setTimeout> | undefined;
-let requestNumber = 0;
 
 function draftOf({ gains, observer }: Configuration): Draft {
   return {
@@ -50,6 +41,8 @@ export const isChanged = computed(
     changedDraft.value !== null &&
     JSON.stringify(changedDraft.value) !== JSON.stringify(designInUse.value),
 );
+/** Changes only if a value changes. */
+export const draftKey = computed(() => JSON.stringify(draft.value));
 /** All other inputs of the prediction. */
 export const predictionInputs = computed(() => {
   const state = session.value;
@@ -57,6 +50,7 @@ export const predictionInputs = computed(() => {
   const { gains, observer, law, stiffness, position, effects, limits } = state.configuration;
   return JSON.stringify([
     state.run_number,
+    settingsJoint.value,
     gains,
     observer,
     law,
@@ -67,7 +61,7 @@ export const predictionInputs = computed(() => {
   ]);
 });
 
-export function requestOf(design: Draft): Parameters<typeof predict>[0] {
+export function requestOf(design: Draft): DesignRequest {
   const [p1, p2, p3, p4] = design.position.map(toRequest) as [number, number, number, number];
   const [s1, s2] = design.stiffness.map(toRequest) as [number, number];
   return {
@@ -79,39 +73,15 @@ export function requestOf(design: Draft): Parameters<typeof predict>[0] {
   };
 }
 
-async function updatePredictions(): Promise<void> {
-  const design = draft.peek();
-  if (design === null) return;
-  const number = ++requestNumber;
-  try {
-    const now = currentPrediction.peek() ?? (await predict({}));
-    const answer = isChanged.peek() ? await predict(requestOf(design)) : now;
-    if (number !== requestNumber) return;
-    currentPrediction.value = now;
-    draftPrediction.value = answer;
-    isPredicting.value = false;
-  } catch {
-    if (number === requestNumber) timer = setTimeout(() => void updatePredictions(), RETRY_MS);
-  }
-}
+/** The request for the settings in use, of an arm for those of the chosen joint. */
+export const requestInUse = (): DesignRequest =>
+  isArm.peek() ? { joint: settingsJoint.peek() } : {};
 
-function schedulePrediction(): void {
-  clearTimeout(timer);
-  isPredicting.value = true;
-  timer = setTimeout(() => void updatePredictions(), PAUSE_MS);
-}
-
-/** While the panel is open: request again whenever the settings of the session change. */
-export function watchPredictionInputs(): () => void {
-  const stop = predictionInputs.subscribe(() => {
-    currentPrediction.value = null;
-    schedulePrediction();
-  });
-  return () => {
-    stop();
-    clearTimeout(timer);
-    requestNumber++;
-  };
+/** The request for the design in the plane. */
+export function designRequest(): DesignRequest {
+  const tried = draft.peek();
+  const changed = tried !== null && isChanged.peek() ? requestOf(tried) : {};
+  return { ...requestInUse(), ...changed };
 }
 
 export function setDraftPoles(group: Group, poles: readonly Pole[]): void {
@@ -119,7 +89,6 @@ export function setDraftPoles(group: Group, poles: readonly Pole[]): void {
   if (before === null) return;
   if (changedDraft.peek() === null) baseState = session.peek();
   changedDraft.value = { ...before, [group]: poles };
-  schedulePrediction();
 }
 
 export function setDraftObserver(bandwidth: number): void {
@@ -127,12 +96,10 @@ export function setDraftObserver(bandwidth: number): void {
   if (before === null) return;
   if (changedDraft.peek() === null) baseState = session.peek();
   changedDraft.value = { ...before, observer: [bandwidth, bandwidth, bandwidth] };
-  schedulePrediction();
 }
 
 export function discard(): void {
   changedDraft.value = null;
-  schedulePrediction();
 }
 
 /** Only changes are sent: unchanged coefficients of the gains stay bit-identical. */

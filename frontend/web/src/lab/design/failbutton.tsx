@@ -3,8 +3,9 @@ import { simulateDesign } from "../../core/api/design";
 import { explain } from "../../core/state/actions";
 import { t } from "../../core/text/t";
 import { ErrorLine } from "../../core/widgets/form";
-import { draftPrediction } from "./draft";
-import { designRequest, draftResponse, stability } from "./stability";
+import { designRequest } from "./draft";
+import { draftPrediction } from "./predictions";
+import { draftResponse, stability } from "./stability";
 
 /** Whether the design would fail: rejected, unstable about rest, or a fault under the 3 kg. */
 const wouldFail = () =>

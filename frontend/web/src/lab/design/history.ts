@@ -30,7 +30,7 @@ import type {
 } from "../../core/api/types";
 import { perform } from "../../core/state/actions";
 import { findChanges, isEqual } from "../../core/state/changes";
-import { armOf, settingsOfJoint } from "../../core/state/joints";
+import { armOf, jointCountOf, listJoints, settingsOfJoint } from "../../core/state/joints";
 import {
   comparisonLanes,
   comparisonLaws,
@@ -41,7 +41,6 @@ import { isRealBench } from "../../core/state/plant";
 import { session } from "../../core/state/session";
 
 const MAX_STEPS = 50;
-const JOINTS: readonly Joint[] = [1, 2];
 
 /** Settings of the single joint, or of a joint of an arm. parameters: by law. */
 interface JointDesign {
@@ -87,7 +86,7 @@ const undoableLoads = ({ bench, loads }: SessionState): LoadRow[] =>
 /** The onset time is not part of the identity. */
 const loadOf = ({ load, joint }: LoadRow): PlacedLoad => ({
   load: { ...load, start_s: null },
-  joint: joint as Joint | null,
+  joint,
 });
 
 function designOfJoint({ configuration }: Pick<SessionState, "configuration">): JointDesign {
@@ -104,13 +103,13 @@ function designOfJoint({ configuration }: Pick<SessionState, "configuration">): 
 }
 
 /** The session with the settings of each joint. */
-const listJoints = (state: SessionState): SessionState[] =>
-  armOf(state) === null ? [state] : JOINTS.map((joint) => settingsOfJoint(state, joint));
+const statesOfJoints = (state: SessionState): SessionState[] =>
+  listJoints(jointCountOf(state)).map((joint) => settingsOfJoint(state, joint));
 
 export function designOf(state: SessionState): Design {
   const { feedforward, adaptation, tip } = armOf(state) ?? {};
   return {
-    joints: listJoints(state).map(designOfJoint),
+    joints: statesOfJoints(state).map(designOfJoint),
     arm: armOf(state) === null ? {} : ({ feedforward, adaptation, tip } as Design["arm"]),
     run: state.run_number,
     loads: undoableLoads(state).map(loadOf),
@@ -233,8 +232,8 @@ function restoreJoint(design: JointDesign, state: SessionState): SessionRequest[
 export function restoringRequests(design: Design, state: SessionState): SessionRequest[] {
   const now = designOf(state);
   if (design.joints.length !== now.joints.length) return [];
-  const calls = listJoints(state).flatMap((settings, index) => {
-    const joint = armOf(state) === null ? null : (JOINTS[index] as Joint);
+  const calls = statesOfJoints(state).flatMap((settings, index) => {
+    const joint = armOf(state) === null ? null : index + 1;
     const ofJoint = restoreJoint(design.joints[index] as JointDesign, settings);
     return ofJoint.map(
       (call): SessionRequest =>

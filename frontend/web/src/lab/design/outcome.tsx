@@ -3,7 +3,7 @@ import { largestTorque } from "../../core/plots/channels";
 import { session } from "../../core/state/session";
 import { t } from "../../core/text/t";
 import { formatLapse, formatNumber } from "../../core/units";
-import { currentPrediction, draftPrediction, isPredicting } from "./draft";
+import { currentPrediction, draftPrediction, isPredicting } from "./predictions";
 import { degreesOf, torqueOf, verdictOf } from "./words";
 
 interface Line {
@@ -94,7 +94,7 @@ function Row({
           <small class="block bad strong"> {t("design.beyond")}</small>
         )}
       </td>
-      <td class="present">{now && line.read(now)}</td>
+      <td class="muted">{now && line.read(now)}</td>
     </tr>
   );
 }
@@ -110,7 +110,7 @@ function Judgement({ prediction }: { prediction: Prediction }) {
       role="status"
       aria-label={t("design.verdictIs", { word: t(`design.verdict.${verdict}`) })}
     >
-      <span class="rigid judgement-sign" aria-hidden="true">
+      <span class="rigid strong tone" aria-hidden="true">
         {t(`design.verdictSign.${verdict}`)}
       </span>
       <div>

@@ -1,24 +1,16 @@
 import { useEffect } from "preact/hooks";
+import { isArm, settings, settingsJoint } from "../../core/state/arm";
 import { lawOf } from "../../core/state/laws";
-import { isLive, session } from "../../core/state/session";
+import { isLive } from "../../core/state/session";
 import { t } from "../../core/text/t";
 import { Problem } from "../../core/widgets/form";
 import { Panel } from "../../core/widgets/panel";
 import { Bandwidths } from "./bandwidths";
-import {
-  apply,
-  discard,
-  draft,
-  draftPrediction,
-  isApplying,
-  isChanged,
-  isOpen,
-  isPredicting,
-  watchPredictionInputs,
-} from "./draft";
+import { apply, discard, draft, isApplying, isChanged, isOpen } from "./draft";
 import { FailButton } from "./failbutton";
 import { Outcome } from "./outcome";
 import { Plane } from "./plane";
+import { draftPrediction, isPredicting, watchPredictions } from "./predictions";
 import { stopComputing } from "./region";
 import { RegionMap } from "./regionmap";
 import { Responses } from "./responses";
@@ -35,7 +27,7 @@ function Buttons() {
   const verdict = draftPrediction.value?.verdict;
   const isReady = isChanged.value && isLive.value && !isApplying.value && !isPredicting.value;
   return (
-    <div class="row design-buttons">
+    <div class="row">
       <button
         type="button"
         class={`button is-primary ${verdict === "warn" ? "is-warned" : ""}`}
@@ -63,8 +55,8 @@ function Roots() {
   return (
     <p class="row small">
       <strong>{t("design.roots")}</strong>
-      <span class="is-position">{tried && describePoles(tried.position)}</span>
-      <span class="is-stiffness">{tried && describePoles(tried.stiffness)}</span>
+      <span class="tone strong is-position">{tried && describePoles(tried.position)}</span>
+      <span class="tone strong is-stiffness">{tried && describePoles(tried.stiffness)}</span>
       <span class="unit">{t("design.unit")}</span>
     </p>
   );
@@ -72,27 +64,27 @@ function Roots() {
 
 /** Pole placement: place the poles, see the predicted behaviour, then apply. */
 export function DesignPanel() {
-  const law = lawOf(session.value?.configuration.law ?? "");
+  const law = lawOf(settings.value?.configuration.law ?? "");
   return isOpen.value && law?.takes_gains !== false ? <Design /> : null;
 }
 
 function Design() {
-  useEffect(watchPredictionInputs, []);
+  useEffect(watchPredictions, []);
   useEffect(watchStability, []);
   useEffect(() => stopComputing, []);
   return (
     <Panel
       title={t("design.title")}
-      class="is-wide design"
+      class="is-wide"
       onClose={close}
       aside={
         <p class="row hint" aria-hidden="true">
-          <span class="is-position">✕ {t("design.legend.position")}</span>
-          <span class="is-stiffness">◇ {t("design.legend.stiffness")}</span>
+          <span class="tone strong is-position">✕ {t("design.legend.position")}</span>
+          <span class="tone strong is-stiffness">◇ {t("design.legend.stiffness")}</span>
         </p>
       }
     >
-      <div class="design-body">
+      <div class="cells" style={{ "--cell": "340px" }}>
         <div class="stack">
           <Plane />
           <p class="hint" id="plane-hint">
@@ -101,6 +93,7 @@ function Design() {
           <Bandwidths />
         </div>
         <div class="grow column">
+          {isArm.value && <p class="hint">{t("design.ofJoint", { joint: settingsJoint.value })}</p>}
           <Roots />
           <SharedPoles />
           <Outcome />

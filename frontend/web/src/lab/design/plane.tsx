@@ -42,7 +42,7 @@ function Ground() {
     <svg aria-hidden="true">
       <defs>
         <pattern id="unstable-half" width="8" height="8" patternUnits="userSpaceOnUse">
-          <path d="M-2 10L10-2M-2 2L2-2M6 10L10 6" class="hatch" />
+          <path d="M-2 10L10-2M-2 2L2-2M6 10L10 6" class="outline is-bad" opacity="0.25" />
         </pattern>
         <clipPath id="stable-half">
           <rect x="0" y="0" width={x0} height={HEIGHT} />
@@ -55,7 +55,7 @@ function Ground() {
           <circle key={speed} class="grid" cx={x0} cy={y0} r={speed * SCALE} />
         ))}
       </g>
-      <path class="plane-axis" d={`M0 ${y0}H${WIDTH}M${x0} 0V${HEIGHT}`} />
+      <path class="outline" opacity="0.5" d={`M0 ${y0}H${WIDTH}M${x0} 0V${HEIGHT}`} />
       {CIRCLES.map((speed) => (
         <text key={speed} x={xOf(-speed)} y={HEIGHT - 6} text-anchor="middle">
           {`\u2212${speed}`}
@@ -67,10 +67,10 @@ function Ground() {
       <text x={x0 + 5} y="13">
         {t("design.imaginary")}
       </text>
-      <text class="plane-side" x="8" y="15">
+      <text class="strong" x="8" y="15">
         {t("design.stable")}
       </text>
-      <text class="plane-side is-unstable" x={WIDTH - 2} y={HEIGHT - 6} text-anchor="end">
+      <text class="tone is-bad" x={WIDTH - 2} y={HEIGHT - 6} text-anchor="end">
         {t("design.unstable")}
       </text>
     </svg>
@@ -80,9 +80,14 @@ function Ground() {
 function ObserverMark({ bandwidth }: { bandwidth: number }) {
   const x = xOf(-bandwidth);
   return (
-    <svg class="plane-observer" aria-hidden="true">
-      <path d={`M${x} ${yOf(20)}V${yOf(-20)}`} />
-      <text x={x} y={yOf(20) - 4} text-anchor="middle">
+    <svg class="is-observer" aria-hidden="true">
+      <path
+        class="outline"
+        stroke-width="2"
+        stroke-dasharray="3 3"
+        d={`M${x} ${yOf(20)}V${yOf(-20)}`}
+      />
+      <text class="tone" x={x} y={yOf(20) - 4} text-anchor="middle">
         {t("design.observerLine")}
       </text>
     </svg>
@@ -95,10 +100,10 @@ function FastestMark() {
   if (fastest === null || -fastest < MIN_RE) return null;
   const x = xOf(-fastest);
   return (
-    <svg class="plane-fastest" aria-hidden="true">
-      <rect x="0" y="0" width={x} height={HEIGHT} />
-      <path d={`M${x} 0V${HEIGHT}`} />
-      <text x={x + 5} y={HEIGHT - 22}>
+    <svg class="is-observer" aria-hidden="true">
+      <rect class="solid" opacity="0.09" x="0" y="0" width={x} height={HEIGHT} />
+      <path class="outline" stroke-width="1.5" d={`M${x} 0V${HEIGHT}`} />
+      <text class="tone" x={x + 5} y={HEIGHT - 22}>
         {t("stability.fastestLine", { value: fastest.toFixed(0) })}
       </text>
     </svg>
@@ -137,7 +142,7 @@ function PoleMark({ group, poles, index, readPlace }: PoleMarkProps) {
   };
   return (
     <g
-      class={`pole is-${group}`}
+      class={`grab pole is-${group}`}
       role="slider"
       tabindex={0}
       transform={`translate(${xOf(pole.re)} ${yOf(pole.im)})`}
@@ -154,7 +159,7 @@ function PoleMark({ group, poles, index, readPlace }: PoleMarkProps) {
       onKeyDown={answer}
     >
       <circle class="pole-reach" r="14" />
-      <path class="pole-mark" d={MARKS[group]} />
+      <path class="outline" stroke-width="3" d={MARKS[group]} />
     </g>
   );
 }
@@ -162,7 +167,7 @@ function PoleMark({ group, poles, index, readPlace }: PoleMarkProps) {
 /** The poles in use, faint, behind those of the draft. */
 function Shadows({ now }: { now: Draft }) {
   return (
-    <svg class="plane-now" aria-hidden="true">
+    <svg fill="none" stroke="var(--edge)" stroke-width="1.6" opacity="0.6" aria-hidden="true">
       {GROUPS.flatMap((group) =>
         countPlaces(now[group]).map(({ pole }) => (
           <path
@@ -179,12 +184,13 @@ function Shadows({ now }: { now: Draft }) {
 function Counts({ group, poles }: { group: Group; poles: Poles }) {
   const side = group === "position" ? -12 : 23;
   return (
-    <svg class={`plane-count is-${group}`} aria-hidden="true">
+    <svg class={`is-${group}`} aria-hidden="true">
       {countPlaces(poles)
         .filter(({ count }) => count > 1)
         .map(({ pole, count }) => (
           <text
             key={`${pole.re},${pole.im}`}
+            class="tone"
             x={xOf(pole.re)}
             y={yOf(pole.im) + side}
             text-anchor="middle"

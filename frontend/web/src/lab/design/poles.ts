@@ -1,5 +1,7 @@
 /** Poles in the plane: single real ones, and complex ones with their conjugate. */
-import { quantityProps } from "../../core/quantities";
+
+import { FIELDS } from "../../core/quantities";
+import { quantityOfSchema } from "../../core/schema";
 
 export interface Pole {
   re: number;
@@ -15,7 +17,7 @@ export const MAX_RE = 40;
 export const MIN_RE = -300;
 export const MAX_IM = 120;
 /** Of a bandwidth that is typed, rad/s. */
-const { min = 0, max = 0 } = quantityProps("bandwidth_rad_per_s");
+const { min = 0, max = 0 } = quantityOfSchema(FIELDS.bandwidth_rad_per_s);
 export const BANDWIDTH_BOUNDS = { min, max };
 
 const clamp = (value: number, least: number, most: number) =>

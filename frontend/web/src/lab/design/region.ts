@@ -2,8 +2,7 @@
 import { computed, signal } from "@preact/signals";
 import { type Region, requestRegion, type StartOutcome } from "../../core/api/design";
 import type { Law } from "../../core/api/types";
-import { draft } from "./draft";
-import { designRequest } from "./stability";
+import { designRequest, draft } from "./draft";
 
 export type Slice = Region["chosen"];
 export const STARTS = 31;

@@ -79,10 +79,12 @@ function Picture() {
         height={HEIGHT - TOP - BOTTOM}
       />
       {LOOKS.map((look) => (
-        <path key={look} class={`region-cells is-${look}`} d={pathOf(look)} />
+        <path key={look} class={`solid is-${look}`} d={pathOf(look)} />
       ))}
       <path
-        class="region-zero"
+        class="outline"
+        stroke-dasharray="2 3"
+        opacity="0.5"
         d={`M${placeX(0)} ${TOP}V${HEIGHT - BOTTOM}M${LEFT} ${placeY(0)}H${WIDTH - RIGHT}`}
       />
       {POSITIONS.map((degrees) => (
@@ -134,7 +136,7 @@ export function RegionMap() {
         {t("stability.region")}
       </h3>
       <form
-        class="row small region-choice"
+        class="row small form"
         onSubmit={(event) => {
           event.preventDefault();
           void computeRegion(law ?? own, chosen, sigma);
@@ -178,9 +180,10 @@ export function RegionMap() {
       </form>
       <ErrorLine>{problem.value === null ? "" : explain(problem.value)}</ErrorLine>
       <Picture />
-      <p class="row small region-legend">
+      <p class="row small">
         {LOOKS.map((look) => (
           <span key={look} class={`is-${look}`}>
+            <i class="dot" />
             {t(`stability.looks.${look}`)}
           </span>
         ))}

@@ -1,7 +1,8 @@
 import type { DesignResponse } from "../../core/api/design";
+import { Swatch } from "../../core/plots/legend";
 import { t } from "../../core/text/t";
 import { formatNumber, toDegrees } from "../../core/units";
-import { type Axis, type Curve, Curves } from "./curves";
+import { type Axis, type Curve, Curves, LOOKS } from "./curves";
 import { isChanged } from "./draft";
 import { currentResponse, draftResponse } from "./stability";
 import { caveatOf } from "./words";
@@ -90,12 +91,14 @@ export function Responses() {
         caveat={response.disturbance === null ? null : doubt}
       />
       {caveat && <p class="hint bad wide">{caveat.summary}</p>}
-      <p class="row small wide responses-legend" aria-hidden="true">
-        <span class="is-tried">
+      <p class="row small wide" aria-hidden="true">
+        <span>
+          <Swatch look={LOOKS.tried} />{" "}
           {isChanged.value ? t("stability.tried") : t("stability.inUse")}
         </span>
         {isChanged.value && (
-          <span class="is-present">
+          <span>
+            <Swatch look={LOOKS.present} />{" "}
             {earlier
               ? t("stability.lineStyles", { name: t("stability.inUse"), short: earlier.short })
               : t("stability.inUse")}

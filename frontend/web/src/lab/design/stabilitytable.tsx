@@ -112,7 +112,7 @@ function Ranges({ result }: { result: Stability }) {
           <tr key={range.symbol}>
             <th scope="row">{t("stability.times", { symbol: range.symbol })}</th>
             <td>{rangeOf(range)}</td>
-            <td class="present">{ratio(range.present)}</td>
+            <td class="muted">{ratio(range.present)}</td>
           </tr>
         ))}
       </tbody>

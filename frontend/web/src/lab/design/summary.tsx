@@ -1,5 +1,4 @@
 import type { SessionState } from "../../core/api/types";
-import { isArm } from "../../core/state/arm";
 import { comparisonLanes } from "../../core/state/lanes";
 import { lawOf } from "../../core/state/laws";
 import { isLive, session } from "../../core/state/session";
@@ -75,15 +74,13 @@ export function DesignSummary() {
         ))}
       </dl>
       <SharedPoles />
-      <div class="row design-open">
-        {!isArm.value && (
-          <PanelButton isOpen={isOpen} hint={t("design.openHint")}>
-            <svg viewBox="0 0 16 16" aria-hidden="true">
-              <path d="M11 0h1.6v16H11zM0 7.2h16v1.6H0zM3 1.8l1.4 1.4L5.8 1.8l1 1-1.4 1.4 1.4 1.4-1 1-1.4-1.4L3 6.6l-1-1 1.4-1.4L2 2.8zM3 9.8l1.4 1.4 1.4-1.4 1 1-1.4 1.4 1.4 1.4-1 1-1.4-1.4L3 14.6l-1-1 1.4-1.4L2 10.8z" />
-            </svg>
-            {t("design.open")}
-          </PanelButton>
-        )}
+      <div class="row">
+        <PanelButton isOpen={isOpen} hint={t("design.openHint")}>
+          <svg viewBox="0 0 16 16" aria-hidden="true">
+            <path d="M11 0h1.6v16H11zM0 7.2h16v1.6H0zM3 1.8l1.4 1.4L5.8 1.8l1 1-1.4 1.4 1.4 1.4-1 1-1.4-1.4L3 6.6l-1-1 1.4-1.4L2 2.8zM3 9.8l1.4 1.4 1.4-1.4 1 1-1.4 1.4 1.4 1.4-1 1-1.4-1.4L3 14.6l-1-1 1.4-1.4L2 10.8z" />
+          </svg>
+          {t("design.open")}
+        </PanelButton>
         <UndoButton />
       </div>
       <Problem control="design.undo" />

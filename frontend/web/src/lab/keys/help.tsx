@@ -51,7 +51,7 @@ function Sheet() {
         <Row press={["?"]}>{t("keys.does.help")}</Row>
         <Row press={[t("keys.names.escape")]}>{t("keys.does.close")}</Row>
       </dl>
-      <label class="row divided strong help-switch">
+      <label class="row divided strong">
         <input
           type="checkbox"
           checked={areKeysOn.value}

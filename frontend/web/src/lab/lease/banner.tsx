@@ -24,7 +24,7 @@ function Question({ other }: { other: string | null }) {
     void confirmControl(name);
   };
   return (
-    <form class="row banner is-news is-calm" aria-label={t("control.heading")} onSubmit={submit}>
+    <form class="row banner is-accent" aria-label={t("control.heading")} onSubmit={submit}>
       <p>
         <strong>
           {other === null ? t("control.askTitle") : t("control.askOverTitle", { name: other })}
@@ -64,7 +64,7 @@ function Question({ other }: { other: string | null }) {
 function Held({ other }: { other: string }) {
   return (
     <Banner
-      look="is-news is-calm"
+      look="is-accent"
       sign="▪"
       title={t("control.heldTitle", { name: other })}
       words={t("control.heldText")}

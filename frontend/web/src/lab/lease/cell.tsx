@@ -54,12 +54,12 @@ export function ControlCell() {
   const sign = now.holder === null || !isLive.value ? "○" : now.mine ? "●" : "▪";
   return (
     <div
-      class={`rigid small nowrap status-cell is-control ${now.mine ? "is-mine" : ""} ${mayCommand.value ? "" : "is-other"}`}
+      class={`rigid small nowrap status-cell is-control ${mayCommand.value ? "" : "is-other"}`}
       title={t("control.hint")}
     >
       <dt>{t("control.heading")}</dt>
       <dd>
-        <span role="status">
+        <span role="status" class={now.mine ? "tone is-accent" : ""}>
           <span aria-hidden="true">{sign}</span> <span class="clip control-name">{who}</span>
         </span>{" "}
         {isLive.value && (

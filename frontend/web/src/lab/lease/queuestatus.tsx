@@ -79,7 +79,7 @@ export function QueueStatus({ queue }: { queue: Queue }) {
   const turn = access.value === null ? null : describeTurn(queue);
   if (turn === null) return null;
   return (
-    <Banner look="is-news is-calm" sign="▪" title={turn.title} words={turn.more}>
+    <Banner look="is-accent" sign="▪" title={turn.title} words={turn.more}>
       <Act queue={queue} />
     </Banner>
   );

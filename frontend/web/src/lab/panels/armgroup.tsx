@@ -3,23 +3,29 @@ import { useId, useRef } from "preact/hooks";
 import type { ArmPatch, ArmSetup } from "../../core/api/arm";
 import { addLoad, patchArm, removeLoad } from "../../core/api/client";
 import type { SessionState } from "../../core/api/types";
-import { placeLinks } from "../../core/armgeometry";
+import { type Lengths, lengthsOf, placeTip, reachOf } from "../../core/armgeometry";
+import { LiveNumber } from "../../core/forms/live";
+import { FIELDS } from "../../core/quantities";
 import { perform } from "../../core/state/actions";
-import { type JointChoice, jointChoice } from "../../core/state/arm";
-import { armOf } from "../../core/state/joints";
+import { chosenJoint, jointChoice, jointCount } from "../../core/state/arm";
+import { armOf, listJoints } from "../../core/state/joints";
 import { tipMassKg } from "../../core/state/plant";
 import { samples } from "../../core/state/session";
 import { t } from "../../core/text/t";
 import { formatNumber } from "../../core/units";
 import { Choice, Problem } from "../../core/widgets/form";
 import { Switch } from "../../core/widgets/switch";
-import { Field } from "./field";
 import { Group } from "./group";
 
-const JOINTS = (["both", "1", "2"] as const satisfies JointChoice[]).map((value) => ({
-  value,
-  label: t(`arm.joints.${value}`),
-}));
+const listChoices = (count: number) => [
+  { value: "all", label: t("arm.allJoints") },
+  ...listJoints(count).map((joint) => ({
+    value: String(joint),
+    label: t("arm.jointNumber", { joint }),
+  })),
+];
+
+const MASSES = { min: 0.05, max: 2, logarithmic: true };
 
 /** The estimates of the mass at the tip, of both arms. */
 function Estimate({ state }: { state: SessionState }) {
@@ -49,15 +55,14 @@ const WALL_SHARE = 0.8;
 const SAMPLE_STEP = 10;
 
 /** Rightmost point of the tip's reference in the stored samples, m. */
-function rightmostReference({ length1_m, length2_m }: ArmSetup["links"]): number {
+function rightmostReference(lengths: Lengths): number {
   const { ring } = samples;
   let most = 0;
   for (let index = 0; index < ring.length; index += SAMPLE_STEP) {
-    const read = (lane: number) => ring.valueAt("position_reference_rad", index, lane);
-    const { tip } = placeLinks({ length1: length1_m, length2: length2_m }, read(1), read(2));
-    if (tip.x > most) most = tip.x;
+    const q = lengths.map((_, joint) => ring.valueAt("position_reference_rad", index, joint + 1));
+    most = Math.max(most, placeTip(lengths, q).x || 0);
   }
-  return most > 0 ? most : length1_m + length2_m;
+  return most > 0 ? most : reachOf(lengths);
 }
 
 function Wall({ state }: { state: SessionState }) {
@@ -67,7 +72,7 @@ function Wall({ state }: { state: SessionState }) {
   const toggle = () =>
     perform("arm.wall", async (edit) => {
       if (wall !== undefined || arm === null) return removeLoad(wall?.id ?? 0)();
-      const at = WALL_SHARE * rightmostReference(arm.links);
+      const at = WALL_SHARE * rightmostReference(lengthsOf(arm.links));
       return addLoad({ ...WALL, distance_m: -at })(edit);
     });
   return (
@@ -84,8 +89,8 @@ function Wall({ state }: { state: SessionState }) {
 }
 
 /** An ellipse in front of the arm, whose points it reaches with a bent elbow. */
-function buildEllipse({ length1_m, length2_m }: ArmSetup["links"]): NonNullable<ArmPatch["tip"]> {
-  const reach = length1_m + length2_m;
+function buildEllipse(links: ArmSetup["links"]): NonNullable<ArmPatch["tip"]> {
+  const reach = reachOf(lengthsOf(links));
   return {
     kind: "ellipse",
     elbow: "positive",
@@ -95,6 +100,8 @@ function buildEllipse({ length1_m, length2_m }: ArmSetup["links"]): NonNullable<
   };
 }
 
+/** Inverse kinematics is that of two links: with more, a point of the tip has many poses. */
+const LINKS_OF_A_TIP_REFERENCE = 2;
 const REFERENCES = (["joints", "tip"] as const).map((value) => ({
   value,
   label: t(`arm.references.${value}`),
@@ -131,15 +138,15 @@ export function ArmGroup({ state, isBasic }: { state: SessionState; isBasic: boo
   if (arm === null) return null;
   if (arm.adaptation) last.current = arm.adaptation;
   const send = (patch: ArmPatch) => perform("arm", patchArm(patch));
-  const choice = jointChoice.value;
+  const joint = chosenJoint.value;
   return (
     <Group
       title={t("arm.title")}
       aside={
         <Choice
           label={t("arm.joint")}
-          options={JOINTS}
-          value={choice}
+          options={listChoices(jointCount.value)}
+          value={joint === null ? "all" : String(joint)}
           onChoose={(next) => {
             jointChoice.value = next;
           }}
@@ -148,10 +155,10 @@ export function ArmGroup({ state, isBasic }: { state: SessionState; isBasic: boo
     >
       {!isBasic && (
         <p class="hint is-about">
-          {choice === "both" ? t("arm.both") : t("arm.onlyJoint", { joint: choice })}
+          {joint === null ? t("arm.appliesToAll") : t("arm.onlyJoint", { joint })}
         </p>
       )}
-      <div class="row joined">
+      <div class="row">
         <Switch
           label={t("arm.feedforward")}
           hint={t("arm.feedforwardHint")}
@@ -170,15 +177,13 @@ export function ArmGroup({ state, isBasic }: { state: SessionState; isBasic: boo
       </div>
       <Problem control="arm" />
       <Estimate state={state} />
-      {!isBasic && <ReferenceChoice arm={arm} />}
-      <Field
+      {!isBasic && arm.links.chain.length === LINKS_OF_A_TIP_REFERENCE && (
+        <ReferenceChoice arm={arm} />
+      )}
+      <LiveNumber
         name="arm.mass"
-        label={t("arm.mass")}
-        unit="kg"
-        min={0.001}
-        max={20}
+        schema={{ ...FIELDS.mass_kg, minimum: 0.001, slider: MASSES }}
         value={tipMassKg.value}
-        range={{ min: 0.05, max: 2, logarithmic: true }}
         send={(mass) => async () => {
           tipMassKg.value = mass;
           return state;

@@ -1,5 +1,7 @@
-import { type GainsRequest, putGains, putLaw } from "../../core/api/client";
+import { putGains, putLaw } from "../../core/api/client";
 import type { Configuration, SessionState } from "../../core/api/types";
+import { LiveFields } from "../../core/forms/fields";
+import { changeAt } from "../../core/schema";
 import { perform } from "../../core/state/actions";
 import { areJointsDifferent } from "../../core/state/arm";
 import { currentValueOr } from "../../core/state/conflicts";
@@ -13,7 +15,6 @@ import { MathSymbol } from "../../core/widgets/symbol";
 import { DesignSummary } from "../design/summary";
 import { isOpen as isTuning } from "../tuning/tuning";
 import { Compare } from "./compare";
-import { Field } from "./field";
 import { Group } from "./group";
 import { isIdentifying } from "./identification";
 import { LawForm } from "./law";
@@ -50,7 +51,9 @@ export function Controller({ state, isBasic }: { state: SessionState; isBasic: b
         <>
           {present && !present.takes_gains && <LawForm law={present} state={state} />}
           {(!present || present.takes_gains) && <Gains gains={gains} />}
-          {armOf(state) === null && (
+          {armOf(state) !== null ? (
+            <p class="hint">{t("arm.searchesAlone")}</p>
+          ) : (
             <div class="row tune-open">
               <PanelButton isOpen={isTuning} hint={t("tuning.openHint")}>
                 {t("tuning.open")}
@@ -68,37 +71,29 @@ export function Controller({ state, isBasic }: { state: SessionState; isBasic: b
 }
 
 type GainsState = Configuration["gains"];
-type CoefficientsKey = "position_coefficients" | "stiffness_coefficients";
 
 interface CoefficientsProps {
-  which: CoefficientsKey;
+  which: "position_coefficients" | "stiffness_coefficients";
   symbol: string;
   gains: GainsState;
 }
 
 function Coefficients({ which, symbol, gains }: CoefficientsProps) {
-  const values = gains[which];
-  const send = (changed: number, value: number) => {
-    const request: GainsRequest = {
-      [which]: currentValueOr("gains", gains)[which].map((held, index) =>
-        index === changed ? value : held,
-      ),
-    };
-    return putGains(request);
-  };
+  const { length } = gains[which];
+  const prefixItems = gains[which].map((_, index) => ({
+    type: "number",
+    title: t("gains.coefficient", { index: "₀₁₂₃"[index] ?? "", symbol }),
+    unit: length - index === 1 ? "1/s" : `1/s${"⁰¹²³⁴"[length - index]}`,
+  }));
   return (
-    <>
-      {values.map((value, index) => (
-        <Field
-          key={`${which}.${index}`}
-          name={`gains.${which}.${index}`}
-          label={t("gains.coefficient", { index: "₀₁₂₃"[index] ?? "", symbol })}
-          unit={values.length - index === 1 ? "1/s" : `1/s${"⁰¹²³⁴"[values.length - index]}`}
-          value={value}
-          send={(next) => send(index, next)}
-        />
-      ))}
-    </>
+    <LiveFields
+      name="gains"
+      schema={{ properties: { [which]: { prefixItems } } }}
+      value={gains}
+      send={(path, value) =>
+        putGains({ [which]: changeAt(currentValueOr("gains", gains), path, value)[which] })
+      }
+    />
   );
 }
 

@@ -34,8 +34,8 @@ export function Controls({ state: session, isBasic = false }: ControlsProps) {
       aria-label={t("controls.heading")}
     >
       {/* Without control nothing in it takes the focus, and the keyboard has to scroll it. */}
-      <div class="groups" ref={groups} tabIndex={takesCommands.value ? undefined : 0}>
-        <fieldset disabled={!takesCommands.value}>
+      <div class="scroller groups" ref={groups} tabIndex={takesCommands.value ? undefined : 0}>
+        <fieldset class="contents" disabled={!takesCommands.value}>
           <ArmGroup state={session} isBasic={isBasic} />
           {!isBasic && (
             <>

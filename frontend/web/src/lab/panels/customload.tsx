@@ -1,13 +1,15 @@
 import { useState } from "preact/hooks";
 import { addLoad } from "../../core/api/client";
 import type { Load } from "../../core/api/types";
-import { quantityOfParameter, quantityProps } from "../../core/quantities";
-import { perform } from "../../core/state/actions";
+import { Field, RequestFields } from "../../core/forms/fields";
+import { useKind } from "../../core/forms/request";
+import { FIELDS } from "../../core/quantities";
+import { schemaOfKind } from "../../core/schema";
+import { execute } from "../../core/state/actions";
 import { isArm, settingsJoint } from "../../core/state/arm";
-import { initialValues, kinds, readForm } from "../../core/state/kinds";
+import { kinds } from "../../core/state/kinds";
 import { t } from "../../core/text/t";
-import { Choice, Problem } from "../../core/widgets/form";
-import { NumberField } from "../../core/widgets/numberinput";
+import { Choice } from "../../core/widgets/form";
 import { EnduranceNote } from "../../hardware/endurance";
 
 type Channel = "0" | "1" | "2";
@@ -19,54 +21,61 @@ const CHANNELS = (["0", "1", "2"] as const).map((value) => ({
 
 /** A user-defined torque on one of the three channels, of every kind that has a form. */
 export function CustomLoad({ isShown }: { isShown: boolean }) {
-  const [kind, setKind] = useState("constant");
   const [channel, setChannel] = useState<Channel>("0");
-  const [torque, setTorque] = useState(1);
-  const [typed, setTyped] = useState<Record<string, number>>({});
-
   const offered = kinds.value?.loads.filter(({ form }) => form !== null) ?? [];
-  const form = offered.find((row) => row.kind === kind)?.form ?? [];
-  const values = { ...initialValues(form), ...typed };
-  const details = readForm(form, values);
-  const torque_nm = CHANNELS.map(({ value }) => (value === channel ? torque : 0));
-  const draft = { kind, torque_nm, ...details } as Load;
-
-  const submit = (event: Event) => {
-    event.preventDefault();
-    void perform("load.custom", addLoad(draft));
+  const form = useKind((kind) => {
+    const { properties } = schemaOfKind(kind, offered);
+    return { properties: { torque_nm: { default: [1, 0, 0] }, ...properties } };
+  }, "constant");
+  const load = form.values as Load;
+  const torque = (form.body.torque_nm as number[])[Number(channel)];
+  const setTorque = (next: unknown, on: Channel) => {
+    setChannel(on);
+    form.set({ ...form.body, torque_nm: CHANNELS.map(({ value }) => (value === on ? next : 0)) });
   };
 
   return (
-    <form class="stack" onSubmit={submit}>
+    <form
+      class="stack"
+      onSubmit={(event) => {
+        event.preventDefault();
+        void form.attempt(() => execute(addLoad(load)));
+      }}
+    >
       <Choice
         label={t("load.customKind")}
         options={offered.map((row) => ({ value: row.kind, label: row.title }))}
-        value={kind}
-        onChoose={setKind}
+        value={form.kind}
+        onChoose={form.choose}
       />
       <Choice
         label={t("load.customChannel")}
         options={CHANNELS}
         value={channel}
-        onChoose={setChannel}
+        onChoose={(next) => setTorque(torque, next)}
       />
-      <NumberField {...quantityProps("torque_nm")} value={torque} onInput={setTorque} />
-      {form.map(({ parameter }) => (
-        <NumberField
-          key={`${kind}.${parameter.name}`}
-          {...quantityOfParameter(parameter)}
-          value={values[parameter.name] as number}
-          onInput={(value) => setTyped({ ...typed, [parameter.name]: value })}
-        />
-      ))}
-      {isArm.value && (
-        <p class="hint">{settingsJoint.value === 1 ? t("arm.torqueOn1") : t("arm.torqueOn2")}</p>
-      )}
-      <EnduranceNote load={isShown ? draft : null} />
+      <RequestFields
+        key={form.kind}
+        form={form}
+        schema={form.schema}
+        replace={{
+          torque_nm: (
+            <Field
+              name="torque_nm"
+              path={`torque_nm[${channel}]`}
+              schema={FIELDS.torque_nm}
+              value={torque}
+              onChange={(next) => setTorque(next, channel)}
+            />
+          ),
+        }}
+        isRow
+      />
+      {isArm.value && <p class="hint">{t("arm.torqueOn", { joint: settingsJoint.value })}</p>}
+      <EnduranceNote load={isShown ? load : null} />
       <button type="submit" class="button">
         {t("load.apply")}
       </button>
-      <Problem control="load.custom" />
     </form>
   );
 }

@@ -1,17 +1,17 @@
 import { putLane } from "../../core/api/client";
 import type { Gains, LawRow, SessionState } from "../../core/api/types";
-import { quantityProps } from "../../core/quantities";
+import { LiveNumber } from "../../core/forms/live";
+import { FIELDS } from "../../core/quantities";
+import type { SliderRange } from "../../core/scale";
 import { perform } from "../../core/state/actions";
 import { type ComparisonLane, gainsOf, hasOwnSettings } from "../../core/state/lanes";
 import { t } from "../../core/text/t";
 import { Problem } from "../../core/widgets/form";
-import type { SliderRange } from "../../core/widgets/scale";
-import { BANDWIDTH_BOUNDS, coefficientsOf } from "../design/poles";
-import { Field } from "./field";
+import { coefficientsOf } from "../design/poles";
 import { ParameterFields } from "./law";
+import { BANDWIDTH } from "./observer";
 
 const POLES: SliderRange = { min: 5, max: 200, logarithmic: true };
-const OBSERVER: SliderRange = { min: 2, max: 300, logarithmic: true };
 
 interface LaneFormProps {
   law: LawRow;
@@ -32,14 +32,15 @@ function Bandwidths({ state, comparison }: Omit<LaneFormProps, "law">) {
     const isTogether = all.every((c, k) => Math.abs(c / (held[k] as number) - 1) < 1e-3);
     return (
       <>
-        <Field
+        <LiveNumber
           name={`lanes.${id}.${group}`}
-          label={symbol}
-          labelRest={t("comparisons.poles", { group: t(`design.${group}`) })}
-          unit={t("design.unit")}
-          {...BANDWIDTH_BOUNDS}
+          schema={{
+            ...FIELDS.bandwidth_rad_per_s,
+            symbol,
+            title: t("comparisons.poles", { group: t(`design.${group}`) }),
+            slider: POLES,
+          }}
           value={bandwidth}
-          range={POLES}
           send={(value) => put({ [`${group}_coefficients`]: coefficientsOf(held.length, value) })}
         />
         {!isTogether && <p class="hint">{t("comparisons.apart", { symbol })}</p>}
@@ -84,13 +85,10 @@ export function LaneForm({ law, state, comparison }: LaneFormProps) {
         send={(parameters) => putLane(lane, { ...controller, parameters })}
       />
       {law.estimate === "observer" && (
-        <Field
+        <LiveNumber
           name={`lanes.${id}.observer`}
-          {...quantityProps("bandwidth_rad_per_s")}
-          label="β"
-          labelRest={t("design.observerBandwidth")}
+          schema={{ ...BANDWIDTH, symbol: "β", title: t("design.observerBandwidth") }}
           value={observer.bandwidth_rad_per_s[0]}
-          range={OBSERVER}
           send={(beta) =>
             putLane(lane, { ...controller, observer: { bandwidth_rad_per_s: [beta, beta, beta] } })
           }

@@ -1,56 +1,42 @@
 import type { SessionRequest } from "../../core/api/client";
 import { putParameters } from "../../core/api/client";
 import type { LawParameter, LawRow, SessionState } from "../../core/api/types";
-import { hasLongMeaning, labelParameter } from "../../core/state/laws";
-import type { SliderRange } from "../../core/widgets/scale";
+import { LiveFields } from "../../core/forms/fields";
+import { changeAt, type Schema, schemaOfParameter } from "../../core/schema";
 import { Undo } from "../design/summary";
-import { Field } from "./field";
 
-type Value = string | number | boolean | readonly number[];
+const MAX_LABEL_LENGTH = 18;
 
-/** A slider if both ends are bounded; logarithmic if they are decades apart. */
-export function rangeOf({ low, high }: LawParameter): { range?: SliderRange } {
-  if (low === null || high === null) return {};
-  return { range: { min: low, max: high, logarithmic: low > 0 && high / low >= 10 } };
+/** In SI, as in the law's equation; a slider if both ends are bounded. */
+function numberOf(row: LawParameter, index: number | null): Schema {
+  const { symbol, meaning, low, high } = row;
+  // A meaning that is too long for the slider's line is above it; the line then has the symbol.
+  const isLong = symbol !== "" && meaning.length > MAX_LABEL_LENGTH;
+  const { description: _, ...own } = schemaOfParameter(row);
+  const isDecades = low !== null && high !== null && low > 0 && high / low >= 10;
+  const slider = low !== null && high !== null && { min: low, max: high, logarithmic: isDecades };
+  const label = (text: string) => (index === null ? text : `${text} ${index + 1}`);
+  return {
+    ...own,
+    title: isLong ? meaning : label(meaning),
+    isSi: true,
+    ...(isLong && { symbol: label(symbol) }),
+    ...(isLong && !index && { about: meaning }),
+    ...(slider && { slider }),
+  };
 }
 
-/** Index, for a parameter of several numbers. */
-export function changedAt(held: Value, index: number | null, value: number): Value {
-  if (index === null || !Array.isArray(held)) return value;
-  return held.map((number, at) => (at === index ? value : number));
-}
-
-interface ParameterProps {
-  /** Name of the form, unique on the page. */
-  name: string;
-  row: LawParameter;
-  held: Value;
-  send: (value: Value) => SessionRequest;
-}
-
-function Parameter({ name, row, held, send }: ParameterProps) {
-  const unit = row.unit === "1" ? "" : row.unit;
-  const places = row.kind === "numbers" ? (held as number[]).map((_, index) => index) : [null];
-  return (
-    <>
-      {hasLongMeaning(row) && <p class="hint">{row.meaning}</p>}
-      {places.map((index) => (
-        <Field
-          key={index}
-          name={`${name}.${row.name}${index === null ? "" : `[${index}]`}`}
-          label={labelParameter(row, index)}
-          {...(hasLongMeaning(row) ? { labelRest: row.meaning } : {})}
-          unit={unit}
-          value={index === null ? (held as number) : ((held as number[])[index] as number)}
-          min={row.low ?? undefined}
-          max={row.high ?? undefined}
-          {...rangeOf(row)}
-          send={(value) => send(changedAt(held, index, value))}
-        />
-      ))}
-    </>
-  );
-}
+/** The fields of a law's numbers. */
+export const schemaOfLaw = ({ parameters }: LawRow): Schema => ({
+  properties: Object.fromEntries(
+    parameters.flatMap((row): [string, Schema][] => {
+      if (row.kind === "number") return [[row.name, numberOf(row, null)]];
+      if (row.kind !== "numbers") return [];
+      const items = row.default as readonly number[];
+      return [[row.name, { prefixItems: items.map((_, index) => numberOf(row, index)) }]];
+    }),
+  ),
+});
 
 interface ParameterFieldsProps {
   law: LawRow;
@@ -62,19 +48,15 @@ interface ParameterFieldsProps {
 
 /** A field for each number of a law's own parameters. */
 export function ParameterFields({ law, name, held, send }: ParameterFieldsProps) {
-  const numbers = law.parameters.filter(({ kind }) => kind === "number" || kind === "numbers");
+  const defaults = law.parameters.map((row) => [row.name, row.default] as const);
+  const values = { ...Object.fromEntries(defaults), ...held };
   return (
-    <>
-      {numbers.map((row) => (
-        <Parameter
-          key={row.name}
-          name={name}
-          row={row}
-          held={(held[row.name] as Value | undefined) ?? row.default}
-          send={(value) => send({ ...held, [row.name]: value })}
-        />
-      ))}
-    </>
+    <LiveFields
+      name={name}
+      schema={schemaOfLaw(law)}
+      value={values}
+      send={(path, value) => send(changeAt(values, path, value))}
+    />
   );
 }
 

@@ -23,9 +23,9 @@ function WeightPicture({ isActive, form }: { isActive: boolean; form: WeightForm
   if (form !== "mass" && form !== "tip") {
     return (
       <svg class="rigid weight" viewBox="0 0 48 48" aria-hidden="true">
-        <path class="weight-ring" d="M9 36a17 17 0 1 1 30 0" />
-        <path class="weight-body" d="M33 33l13 1-8 10z" />
-        <text class="weight-torque" x="24" y="31" text-anchor="middle">
+        <path class="outline" d="M9 36a17 17 0 1 1 30 0" />
+        <path class="solid" d="M33 33l13 1-8 10z" />
+        <text class="solid" x="24" y="31" text-anchor="middle">
           {form === "paper" ? t("load.torque2") : t("load.torqueSign")}
         </text>
       </svg>
@@ -33,9 +33,9 @@ function WeightPicture({ isActive, form }: { isActive: boolean; form: WeightForm
   }
   return (
     <svg class="rigid weight" viewBox="0 0 48 48" aria-hidden="true">
-      {isActive && <path class="weight-cord" d="M24 0v16" />}
-      <circle class="weight-ring" cx="24" cy="19" r="4.5" />
-      <path class="weight-body" d="M14.5 24h19l5.5 19a3 3 0 0 1-3 4H12a3 3 0 0 1-3-4z" />
+      {isActive && <path class="outline" d="M24 0v16" />}
+      <circle class="outline" cx="24" cy="19" r="4.5" />
+      <path class="solid" d="M14.5 24h19l5.5 19a3 3 0 0 1-3 4H12a3 3 0 0 1-3-4z" />
       <text class="weight-text" x="24" y="41" text-anchor="middle">
         {form === "mass" ? t("load.weight") : t("load.massSign")}
       </text>

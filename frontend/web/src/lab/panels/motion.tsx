@@ -1,55 +1,34 @@
 import { useRef } from "preact/hooks";
 import { putPosition } from "../../core/api/client";
 import type { PositionReference, RequestOf, SessionState } from "../../core/api/types";
-import { quantityProps } from "../../core/quantities";
-import { currentValueOr } from "../../core/state/conflicts";
+import { FIELDS } from "../../core/quantities";
 import { t } from "../../core/text/t";
 import { toRadians } from "../../core/units";
-import { Field } from "./field";
-import { ReferenceGroup } from "./reference";
+import { FREQUENCIES, ReferenceGroup } from "./reference";
 
 type Sine = Extract<PositionReference, { kind: "sine" }>;
 
-const FIRST_SINE: RequestOf<Sine> = {
-  kind: "sine",
-  amplitude_rad: toRadians(60),
-  frequency_hz: 0.2,
-};
+const FIRST_SINE = { kind: "sine", amplitude_rad: toRadians(60), frequency_hz: 0.2 } as const;
 const KINDS = [
   { value: "sine", label: t("motion.sine") },
   { value: "constant", label: t("motion.constant") },
   { value: "other", label: t("references.other") },
 ] as const;
 
-function SineFields({ reference }: { reference: Sine }) {
-  const send = (change: Partial<Sine>) =>
-    putPosition({ ...currentValueOr("position", reference), ...change });
-  return (
-    <>
-      <Field
-        name="motion.amplitude"
-        {...quantityProps("amplitude_rad")}
-        value={reference.amplitude_rad}
-        range={{ min: 0, max: 90, step: 1 }}
-        send={(amplitude_rad) => send({ amplitude_rad })}
-      />
-      <Field
-        name="motion.frequency"
-        {...quantityProps("frequency_hz")}
-        value={reference.frequency_hz}
-        range={{ min: 0.02, max: 2, logarithmic: true }}
-        send={(hz) => send({ frequency_hz: hz })}
-      />
-      <Field
-        name="motion.offset"
-        {...quantityProps("offset_rad")}
-        value={reference.offset_rad}
-        range={{ min: -60, max: 60, step: 1 }}
-        send={(offset_rad) => send({ offset_rad })}
-      />
-    </>
-  );
-}
+const SCHEMAS = {
+  sine: {
+    properties: {
+      amplitude_rad: { ...FIELDS.amplitude_rad, slider: { min: 0, max: 90, step: 1 } },
+      frequency_hz: { ...FIELDS.frequency_hz, slider: FREQUENCIES },
+      offset_rad: { ...FIELDS.offset_rad, slider: { min: -60, max: 60, step: 1 } },
+    },
+  },
+  constant: {
+    properties: {
+      position_rad: { ...FIELDS.position_rad, slider: { min: -90, max: 90, step: 1 } },
+    },
+  },
+};
 
 export function Motion({ state }: { state: SessionState }) {
   const reference = state.configuration.position;
@@ -69,18 +48,7 @@ export function Motion({ state }: { state: SessionState }) {
       reference={reference}
       kinds={KINDS}
       onChoose={choose}
-    >
-      {reference.kind === "sine" ? (
-        <SineFields reference={reference} />
-      ) : reference.kind === "constant" ? (
-        <Field
-          name="motion.position"
-          {...quantityProps("position_rad")}
-          value={reference.position_rad}
-          range={{ min: -90, max: 90, step: 1 }}
-          send={(position_rad) => putPosition({ kind: "constant", position_rad })}
-        />
-      ) : null}
-    </ReferenceGroup>
+      schemas={SCHEMAS}
+    />
   );
 }

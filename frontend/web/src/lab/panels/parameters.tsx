@@ -1,15 +1,16 @@
 import { useId } from "preact/hooks";
 import { patchActuator, patchNominal } from "../../core/api/client";
 import type { ActuatorParameters, Configuration } from "../../core/api/types";
+import { type ServerNumber, useServerNumber } from "../../core/forms/servernumber";
 import { PARAMETERS } from "../../core/quantities";
 import type { Demand } from "../../core/readnumber";
+import { quantityOfSchema, schemaOfParameter } from "../../core/schema";
 import { perform } from "../../core/state/actions";
 import { describeActuator, nameOfActuator, patchOf, SVSA } from "../../core/state/actuators";
 import { t } from "../../core/text/t";
 import { formatNumber } from "../../core/units";
 import { Problem } from "../../core/widgets/form";
 import { NumberInput } from "../../core/widgets/numberinput";
-import { type ServerNumber, useServerNumber } from "./draft";
 
 /** Format of a parameter in the table. */
 interface Row {
@@ -56,34 +57,24 @@ function differenceOf(model: number, actual: number): string {
 type Models = Pick<Configuration, "actuator" | "nominal">;
 const numberOf = (values: ActuatorParameters, key: string): number => Number(values[key]);
 
-/** Numbers of the actuator, with the page's shorter labels if there are any. */
+/** Numbers of the actuator; those that every actuator has with the page's symbols and labels. */
 function listRows({ actuator }: Models): Row[] {
   const name = nameOfActuator(actuator);
-  const described = describeActuator(name)?.parameters ?? [];
-  const demandOf = (key: string, label: string, unit: string): Demand => {
-    const row = described.find((parameter) => parameter.name === key);
-    return { label, unit, min: row?.low ?? undefined, max: row?.high ?? undefined };
-  };
-  const common = (Object.keys(PARAMETERS) as (keyof typeof PARAMETERS)[]).filter(
-    (key) => typeof actuator[key] === "number",
+  const numbers = (describeActuator(name)?.parameters ?? []).filter(
+    (row) => typeof actuator[row.name] === "number" && (row.name in PARAMETERS || name !== SVSA),
   );
-  const own = described.filter(
-    ({ name: key, kind }) => name !== SVSA && kind === "number" && !(key in PARAMETERS),
-  );
-  return [
-    ...common.map((key) => {
-      const [symbol, unit] = PARAMETERS[key];
-      const meaning = t(`realism.names.${key}`);
-      const demand = demandOf(key, `${symbol} ${meaning}`, unit);
-      return { key, symbol, meaning: `${meaning}, ${unit}`, demand };
-    }),
-    ...own.map(({ name: key, meaning, unit }) => ({
+  return numbers.map((row) => {
+    const key = row.name as keyof typeof PARAMETERS;
+    const [symbol = "", meaning = row.meaning] =
+      key in PARAMETERS ? [PARAMETERS[key][0], t(`realism.names.${key}`)] : [];
+    const { unit, min, max } = quantityOfSchema({ ...schemaOfParameter(row), isSi: true });
+    return {
       key,
-      symbol: "",
-      meaning: unit === "1" ? meaning : `${meaning}, ${unit}`,
-      demand: demandOf(key, meaning, unit === "1" ? "" : unit),
-    })),
-  ];
+      symbol,
+      meaning: unit === "" ? meaning : `${meaning}, ${unit}`,
+      demand: { label: `${symbol} ${meaning}`.trim(), unit, min, max },
+    };
+  });
 }
 
 /** Whether the controller's model equals the plant. */

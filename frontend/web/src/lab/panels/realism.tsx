@@ -1,14 +1,15 @@
 import { useRef } from "preact/hooks";
 import { putEffects } from "../../core/api/client";
 import type { EffectRow, Effects, SessionState } from "../../core/api/types";
-import { quantityOfParameter } from "../../core/quantities";
+import { LiveFields } from "../../core/forms/fields";
+import { LiveNumber } from "../../core/forms/live";
+import { changeAt, schemaOfParameter, schemaOfParameters, type Values } from "../../core/schema";
 import { perform } from "../../core/state/actions";
 import { currentValueOr } from "../../core/state/conflicts";
 import { choosePreset, kinds, type Preset } from "../../core/state/kinds";
 import { t } from "../../core/text/t";
 import { Choice, Problem } from "../../core/widgets/form";
 import { Switch } from "../../core/widgets/switch";
-import { Field } from "./field";
 import { Group } from "./group";
 import { ParameterTable } from "./parameters";
 
@@ -50,8 +51,6 @@ export function Realism({ state }: { state: SessionState }) {
   );
 }
 
-type Values = Record<string, unknown>;
-
 interface EffectControlProps {
   effect: EffectRow;
   effects: Effects;
@@ -69,9 +68,9 @@ function EffectControl({ effect, effects, last }: EffectControlProps) {
   const held = find(effects);
   if (effect.value?.kind === "number") {
     return (
-      <Field
+      <LiveNumber
         name={name}
-        {...quantityOfParameter(effect.value)}
+        schema={schemaOfParameter(effect.value)}
         value={held as number}
         send={send}
       />
@@ -83,21 +82,16 @@ function EffectControl({ effect, effects, last }: EffectControlProps) {
     <div>
       <Switch label={effect.meaning} isOn={isOn} onToggle={onToggle} />
       <Problem control={name} />
-      {isOn &&
-        effect.parameters.map((row) => (
-          <Field
-            key={row.name}
-            name={`${name}.${row.name}`}
-            {...quantityOfParameter(row)}
-            value={(held as Values)[row.name] as number}
-            send={(value) =>
-              send({
-                ...((find(currentValueOr("effects", effects)) ?? held) as Values),
-                [row.name]: value,
-              })
-            }
-          />
-        ))}
+      {isOn && (
+        <LiveFields
+          name={name}
+          schema={schemaOfParameters(effect.parameters)}
+          value={held as Values}
+          send={(path, value) =>
+            send(changeAt(find(currentValueOr("effects", effects)) ?? held, path, value))
+          }
+        />
+      )}
     </div>
   );
 }

@@ -1,14 +1,19 @@
-import type { ComponentChildren } from "preact";
 import { useState } from "preact/hooks";
 import type { SessionRequest } from "../../core/api/client";
 import type { Follows } from "../../core/api/design";
 import type { PositionReference, StiffnessReference } from "../../core/api/types";
+import { LiveFields } from "../../core/forms/fields";
+import type { SliderRange } from "../../core/scale";
+import { changeAt, type Schema } from "../../core/schema";
 import { perform } from "../../core/state/actions";
 import { areJointsDifferent, settings } from "../../core/state/arm";
+import { currentValueOr } from "../../core/state/conflicts";
 import { t } from "../../core/text/t";
 import { Choice, type Option, Problem } from "../../core/widgets/form";
 import { Group } from "./group";
-import { Shaped, titleOf } from "./shaped";
+import { putReference, Shaped, titleOf } from "./shaped";
+
+export const FREQUENCIES: SliderRange = { min: 0.02, max: 2, logarithmic: true };
 
 type Kind = "sine" | "constant" | "other";
 
@@ -28,12 +33,12 @@ interface ReferenceGroupProps {
   /** Send the reference of this kind. */
   onChoose: (kind: Exclude<Kind, "other">) => SessionRequest;
   /** The fields of a sine or a constant. */
-  children: ComponentChildren;
+  schemas: Readonly<Record<Exclude<Kind, "other">, Schema>>;
 }
 
 /** The reference of the session: its kind, its fields, or the form of a finite one. */
 export function ReferenceGroup(props: ReferenceGroupProps) {
-  const { topic, follows, reference, kinds, onChoose, children } = props;
+  const { topic, follows, reference, kinds, onChoose, schemas } = props;
   const configuration = settings.value?.configuration;
   const [isOther, setOther] = useState(false);
   const shown = isOther ? "other" : kindOf(reference);
@@ -57,7 +62,16 @@ export function ReferenceGroup(props: ReferenceGroupProps) {
       {shown === "other" && configuration !== undefined ? (
         <Shaped follows={follows} held={reference.kind} configuration={configuration} />
       ) : (
-        children
+        (reference.kind === "sine" || reference.kind === "constant") && (
+          <LiveFields
+            name={topic}
+            schema={schemas[reference.kind]}
+            value={reference}
+            send={(path, value) =>
+              putReference(follows, changeAt(currentValueOr(follows, reference), path, value))
+            }
+          />
+        )
       )}
       {kindOf(reference) === "other" && (
         <p class="hint">

@@ -19,28 +19,18 @@ import type {
   RequestOf,
   StiffnessReference,
 } from "../../core/api/types";
-import { quantityOfParameter } from "../../core/quantities";
-import { explain, perform } from "../../core/state/actions";
-import { initialValues, kinds, readForm } from "../../core/state/kinds";
+import { RequestFields } from "../../core/forms/fields";
+import { useKind } from "../../core/forms/request";
+import { schemaOfKind, type Values } from "../../core/schema";
+import { perform } from "../../core/state/actions";
+import { kinds } from "../../core/state/kinds";
 import { session } from "../../core/state/session";
 import { t } from "../../core/text/t";
 import { DEGREES_PER_RADIAN, formatNumber } from "../../core/units";
-import { Choice, ErrorLine, Problem } from "../../core/widgets/form";
-import { NumberField } from "../../core/widgets/numberinput";
+import { Choice, Problem } from "../../core/widgets/form";
 import { Levels, Series } from "./referencelist";
-import {
-  coursePath,
-  firstSteps,
-  INPUT_BOUNDS,
-  INPUTS,
-  type Input,
-  type Listed,
-  readLevels,
-  writeLevels,
-} from "./shapes";
+import { coursePath, type Listed, listSchemas, readLevels, writeLevels } from "./shapes";
 
-/** Columns of a CSV. */
-const COLUMNS = { position: "position_deg", stiffness: "stiffness_nm_per_rad" } as const;
 const isListed = (shape: string): shape is Listed => shape === "steps" || shape === "series";
 
 /** Label of a kind of reference in the form. */
@@ -64,7 +54,10 @@ async function readCsv(follows: Follows, csv: string): Promise<Reference> {
   return series.reference;
 }
 
-function putReference(follows: Follows, reference: Reference) {
+export function putReference(
+  follows: Follows,
+  reference: Reference | PositionReference | StiffnessReference,
+) {
   return follows === "position"
     ? putPosition(reference as RequestOf<PositionReference>)
     : putStiffness(reference as RequestOf<StiffnessReference>);
@@ -87,58 +80,48 @@ interface ShapedProps {
 
 /** A finite reference: typed or from a CSV, previewed, then applied. */
 export function Shaped({ follows, held, configuration }: ShapedProps) {
-  const first = firstSteps(follows, configuration);
   const described = kinds.value?.[follows].filter(({ form }) => form !== null) ?? [];
-  const shapes = ["steps", ...described.map((row) => row.kind), "series"].map((value) => ({
+  const shapes = ["steps", ...described.map(({ kind }) => kind), "series"].map((value) => ({
     value,
     label: titleOf(follows, value),
   }));
   const isKnown = shapes.some(({ value }) => value === held);
-  const [shape, setShape] = useState(isKnown ? held : "steps");
-  const [steps, setSteps] = useState(first);
-  const [typed, setTyped] = useState<Record<string, number>>({});
-  const [csv, setCsv] = useState(
-    `time_s,${COLUMNS[follows]}\n0,${first.low}\n1,${first.high}\n3,${first.low}\n`,
+  const lists = listSchemas(follows, configuration);
+  const form = useKind(
+    (kind) => (isListed(kind) ? lists[kind] : schemaOfKind(kind, described)),
+    isKnown ? held : "steps",
   );
-  const [levels, setLevels] = useState(writeLevels(first));
+  const shape = form.kind;
   const [previewed, setPreviewed] = useState<PreviewedReference | null>(null);
-  const [refusal, setRefusal] = useState("");
   const unit = follows === "position" ? "deg" : "N·m/rad";
-  const units: Partial<Record<Input, string>> = { hold: "s", count: "" };
   const kind = described.find((row) => row.kind === shape);
-  const form = kind?.form ?? [];
-  const values = { ...initialValues(form), ...typed };
+  const { csv, levels } = form.body as Record<"csv" | "levels", string>;
 
   useEffect(() => {
     let isLatest = true;
     setPreviewed(null);
     const read = () => {
       if (shape === "series") return readCsv(follows, csv);
-      if (shape === "steps") return readLevels(follows, levels);
-      return { kind: shape, ...readForm(form, values) } as Reference;
+      return shape === "steps" ? readLevels(follows, levels) : (form.values as Reference);
     };
     const look = async () => {
-      try {
+      const next = await form.attempt(async () => {
         const reference = await read();
-        const preview = await previewReference(follows, reference);
-        if (isLatest) setPreviewed({ reference, preview });
-        if (isLatest) setRefusal("");
-      } catch (error) {
-        if (isLatest) setRefusal(error instanceof RangeError ? error.message : explain(error));
-      }
+        return { reference, preview: await previewReference(follows, reference) };
+      });
+      if (isLatest) setPreviewed(next);
     };
     const timer = setTimeout(() => void look(), PAUSE_MS);
     return () => {
       isLatest = false;
       clearTimeout(timer);
     };
-  }, [follows, shape, typed, csv, levels, kind]);
+  }, [follows, form.body, kind]);
 
-  const type = (name: Input, value: number) => {
-    const next = { ...steps, [name]: value };
-    setSteps(next);
-    setLevels(writeLevels(next));
-  };
+  const set = (body: Values) =>
+    form.set(shape === "steps" ? { ...body, levels: writeLevels(body) } : body);
+  const write = (name: "csv" | "levels") => (list: string) =>
+    form.set({ ...form.body, [name]: list });
 
   const submit = (event: Event) => {
     event.preventDefault();
@@ -147,28 +130,17 @@ export function Shaped({ follows, held, configuration }: ShapedProps) {
 
   return (
     <form class="stack" onSubmit={submit}>
-      <Choice label={t("references.kind")} options={shapes} value={shape} onChoose={setShape} />
-      {shape === "series" && <Series list={csv} onList={setCsv} />}
-      {shape === "steps" &&
-        INPUTS.map((name) => (
-          <NumberField
-            key={name}
-            label={t(`references.inputs.${name}`)}
-            unit={units[name] ?? unit}
-            {...INPUT_BOUNDS[name]}
-            value={steps[name]}
-            onInput={(value) => type(name, value)}
-          />
-        ))}
-      {shape === "steps" && <Levels unit={unit} list={levels} onList={setLevels} />}
-      {form.map(({ parameter }) => (
-        <NumberField
-          key={`${shape}.${parameter.name}`}
-          {...quantityOfParameter(parameter)}
-          value={values[parameter.name] as number}
-          onInput={(value) => setTyped({ ...typed, [parameter.name]: value })}
-        />
-      ))}
+      <Choice label={t("references.kind")} options={shapes} value={shape} onChoose={form.choose} />
+      <RequestFields
+        key={shape}
+        form={{ ...form, set }}
+        schema={form.schema}
+        replace={{
+          csv: <Series list={csv} onList={write("csv")} />,
+          levels: <Levels unit={unit} list={levels} onList={write("levels")} />,
+        }}
+        isRow
+      />
       {previewed && (
         <Course
           preview={previewed.preview}
@@ -176,7 +148,6 @@ export function Shaped({ follows, held, configuration }: ShapedProps) {
           factor={follows === "position" ? DEGREES_PER_RADIAN : 1}
         />
       )}
-      <ErrorLine>{refusal}</ErrorLine>
       <div class="line">
         <button type="submit" class="button grow" disabled={previewed === null}>
           {t("references.apply")}

@@ -1,7 +1,8 @@
 /** Steps and time series from typed text. */
 import type { Follows, Reference } from "../../core/api/design";
 import type { Configuration } from "../../core/api/types";
-import { type Demand, parseNumber } from "../../core/readnumber";
+import { parseNumber } from "../../core/readnumber";
+import type { Schema, Values } from "../../core/schema";
 import { findStiffness } from "../../core/state/stiffness";
 import { hasDecimalComma } from "../../core/text/language";
 import { t } from "../../core/text/t";
@@ -9,21 +10,33 @@ import { DEGREES_PER_RADIAN, formatInput, roundTo } from "../../core/units";
 
 /** Kinds with their own form; any other is described by the server. */
 export type Listed = "steps" | "series";
-export type Input = "low" | "high" | "hold" | "count";
+/** Levels in the unit on screen, the duration of each in s, and their number. */
+type StepsValues = Readonly<Record<"low" | "high" | "hold" | "count", number>>;
 
-export const INPUTS: readonly Input[] = ["low", "high", "hold", "count"];
-export const INPUT_BOUNDS: Partial<Record<Input, Demand>> = {
-  hold: { min: 0 },
-  count: { min: 0, max: 199, isInteger: true },
-};
+const COLUMNS = { position: "position_deg", stiffness: "stiffness_nm_per_rad" } as const;
 
-/** First parameters of steps, in the units on screen: degrees or N·m/rad, s. */
-export function firstSteps(follows: Follows, configuration: Configuration): Record<Input, number> {
-  const timing = { hold: 2, count: 4 };
-  if (follows === "position") return { low: -20, high: 20, ...timing };
-  const low = findStiffness(configuration);
-  const high = Math.min(2 * low, configuration.limits.stiffness_max_nm_per_rad);
-  return { low: roundTo(low, 3), high: roundTo(high, 3), ...timing };
+/** The forms of the kinds that the user can write as a list, in the units on screen. */
+export function listSchemas(
+  follows: Follows,
+  configuration: Configuration,
+): Record<Listed, Schema> {
+  const least = findStiffness(configuration);
+  const most = Math.min(2 * least, configuration.limits.stiffness_max_nm_per_rad);
+  const [low, high] = follows === "position" ? [-20, 20] : [roundTo(least, 3), roundTo(most, 3)];
+  const level = { type: "number", unit: follows === "position" ? "deg" : "N·m/rad" };
+  const title = (name: keyof StepsValues) => t(`references.inputs.${name}`);
+  const steps = {
+    low: { ...level, title: title("low"), default: low },
+    high: { ...level, title: title("high"), default: high },
+    hold: { type: "number", title: title("hold"), unit: "s", minimum: 0, default: 2 },
+    count: { type: "integer", title: title("count"), minimum: 0, maximum: 199, default: 4 },
+  };
+  const levels = writeLevels({ low, high, hold: steps.hold.default, count: steps.count.default });
+  const csv = `time_s,${COLUMNS[follows]}\n0,${low}\n1,${high}\n3,${low}\n`;
+  return {
+    steps: { properties: { ...steps, levels: { default: levels } } },
+    series: { properties: { csv: { default: csv } } },
+  };
 }
 
 /** The points of a polyline in a box of this size, with the greatest value on top. */
@@ -53,7 +66,8 @@ export const MAX_LEVELS = 200;
 const GAP = /\s*;\s*|\s*,\s+|\s+/;
 
 /** A list of equidistant steps between two levels. */
-export function writeLevels({ low, high, hold, count }: Record<Input, number>): string {
+export function writeLevels(values: Values): string {
+  const { low, high, hold, count } = values as StepsValues;
   const numbers = Array.from({ length: count + 1 }, (_, number) => number);
   const timeOf = (number: number) => Number((number * hold).toPrecision(12));
   return numbers

@@ -1,14 +1,12 @@
 import { useRef } from "preact/hooks";
 import { putStiffness } from "../../core/api/client";
 import type { RequestOf, SessionState, StiffnessReference } from "../../core/api/types";
-import { quantityProps } from "../../core/quantities";
-import { currentValueOr } from "../../core/state/conflicts";
+import { FIELDS } from "../../core/quantities";
+import type { SliderRange } from "../../core/scale";
 import { t } from "../../core/text/t";
 import { formatInput } from "../../core/units";
-import type { SliderRange } from "../../core/widgets/scale";
-import { Field } from "./field";
 import { Group } from "./group";
-import { ReferenceGroup } from "./reference";
+import { FREQUENCIES, ReferenceGroup } from "./reference";
 
 type Sine = Extract<StiffnessReference, { kind: "sine" }>;
 
@@ -33,36 +31,22 @@ const KINDS = [
   { value: "other", label: t("references.other") },
 ] as const;
 
-function SineFields({ reference, reach }: { reference: Sine; reach: SliderRange }) {
-  const send = (change: Partial<Sine>) =>
-    putStiffness({ ...currentValueOr("stiffness", reference), ...change });
-  return (
-    <>
-      <Field
-        name="stiffness.offset"
-        {...quantityProps("offset_nm_per_rad")}
-        min={reach.min}
-        max={reach.max}
-        value={reference.offset_nm_per_rad}
-        range={reach}
-        send={(value) => send({ offset_nm_per_rad: value })}
-      />
-      <Field
-        name="stiffness.amplitude"
-        {...quantityProps("amplitude_nm_per_rad")}
-        value={reference.amplitude_nm_per_rad}
-        range={amplitudesOf(reach)}
-        send={(value) => send({ amplitude_nm_per_rad: value })}
-      />
-      <Field
-        name="stiffness.frequency"
-        {...quantityProps("frequency_hz")}
-        value={reference.frequency_hz}
-        range={{ min: 0.02, max: 2, logarithmic: true }}
-        send={(hz) => send({ frequency_hz: hz })}
-      />
-    </>
-  );
+/** Levels in the range of the actuator. */
+function schemasOf(reach: SliderRange) {
+  const { min: minimum, max: maximum } = reach;
+  const level = { minimum, maximum, slider: reach };
+  return {
+    sine: {
+      properties: {
+        offset_nm_per_rad: { ...FIELDS.offset_nm_per_rad, ...level },
+        amplitude_nm_per_rad: { ...FIELDS.amplitude_nm_per_rad, slider: amplitudesOf(reach) },
+        frequency_hz: { ...FIELDS.frequency_hz, slider: FREQUENCIES },
+      },
+    },
+    constant: {
+      properties: { stiffness_nm_per_rad: { ...FIELDS.stiffness_nm_per_rad, ...level } },
+    },
+  };
 }
 
 /** Level or mean for the next reference: the mean of this one, or its last level. */
@@ -110,20 +94,7 @@ export function Stiffness({ state }: { state: SessionState }) {
       reference={reference}
       kinds={KINDS}
       onChoose={choose}
-    >
-      {reference.kind === "sine" ? (
-        <SineFields reference={reference} reach={reach} />
-      ) : reference.kind === "constant" ? (
-        <Field
-          name="stiffness.level"
-          {...quantityProps("stiffness_nm_per_rad")}
-          min={reach.min}
-          max={reach.max}
-          value={reference.stiffness_nm_per_rad}
-          range={reach}
-          send={(value) => putStiffness({ kind: "constant", stiffness_nm_per_rad: value })}
-        />
-      ) : null}
-    </ReferenceGroup>
+      schemas={schemasOf(reach)}
+    />
   );
 }

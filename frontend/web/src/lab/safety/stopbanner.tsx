@@ -25,9 +25,7 @@ interface StopNoticeProps {
 function StopNotice({ title, words, isSimulation = false, children }: StopNoticeProps) {
   return (
     <div class={`row banner is-stop ${isSimulation ? "is-simulation" : ""}`} role="alert">
-      <span class="banner-sign" aria-hidden="true">
-        ■
-      </span>
+      <span aria-hidden="true">■</span>
       <div class="grow">
         <p>
           <strong>{title}</strong> {words}
@@ -50,9 +48,7 @@ function LatchedBench({ state, bench }: { state: SessionState; bench: BenchState
     : t("stop.lostSteps", { returnObjects: true });
   return (
     <div class="row banner is-stop">
-      <span class="banner-sign" aria-hidden="true">
-        ■
-      </span>
+      <span aria-hidden="true">■</span>
       <div class="grow">
         <p role="alert">
           {!isLive.value && `${t("stop.lastKnown")} `}
@@ -111,7 +107,7 @@ export function StopBanners() {
 export function FaultAdvice({ fault: { advice } }: { fault: SessionFault }) {
   if (advice === null) return null;
   return (
-    <details class="fault-advice">
+    <details>
       <summary>{t("fault.adviceTitle")}</summary>
       {advice}
     </details>

@@ -79,6 +79,7 @@ class Sheet {
   readonly #covered = new Map<string, boolean>();
   readonly #places = new LabelPlaces();
   #turn = 0;
+  #shown = "";
 
   constructor(
     private readonly sheet: HTMLElement,
@@ -150,6 +151,10 @@ class Sheet {
   }
 
   #show(placed: readonly PlacedLabel[]): void {
+    // The same places again would be laid out again.
+    const places = JSON.stringify(placed);
+    if (places === this.#shown) return;
+    this.#shown = places;
     const shown = new Map(placed.map((label) => [label.key, label]));
     for (const [key, span] of this.#spans) {
       const label = shown.get(key);
@@ -187,21 +192,16 @@ export function SceneLabels({ frame }: { frame: () => HTMLIFrameElement | null }
   useEffect(() => {
     if (sheet.current === null || drawing.current === null) return;
     const labels = new Sheet(sheet.current, drawing.current);
-    let drawnAt = 0;
-    let request = 0;
-    const follow = (now: number) => {
-      request = requestAnimationFrame(follow);
+    // Not in the frames of the page: requesting one draws the page, and it is at rest most of the time.
+    const timer = setInterval(() => {
       const shown = frame();
-      if (shown === null || now - drawnAt < FASTEST_MS - 2) return;
-      drawnAt = now;
-      labels.draw(shown);
-    };
-    request = requestAnimationFrame(follow);
-    return () => cancelAnimationFrame(request);
+      if (shown !== null) labels.draw(shown);
+    }, FASTEST_MS);
+    return () => clearInterval(timer);
   }, [frame]);
   return (
-    <div class="scene-labels" ref={sheet} aria-hidden="true">
-      <svg ref={drawing} />
+    <div class="fill scene-labels" ref={sheet} aria-hidden="true">
+      <svg class="fill" ref={drawing} />
     </div>
   );
 }

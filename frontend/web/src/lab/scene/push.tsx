@@ -36,9 +36,17 @@ function Band() {
   const now = pull.value;
   if (now === null) return null;
   return (
-    <svg class="fill push-band" aria-hidden="true">
-      <line x1={now.from.x} y1={now.from.y} x2={now.x} y2={now.y} />
-      <circle cx={now.from.x} cy={now.from.y} r="5" />
+    <svg class="drawing fill push-band" aria-hidden="true">
+      <line
+        class="outline is-warn"
+        stroke-width="3"
+        stroke-dasharray="7 3"
+        x1={now.from.x}
+        y1={now.from.y}
+        x2={now.x}
+        y2={now.y}
+      />
+      <circle class="solid is-warn" cx={now.from.x} cy={now.from.y} r="5" />
       <text x={now.x + 14} y={now.y - 10}>
         {t("scene.pulling", { torque: formatNumber(now.torque, 2, 1) })}
       </text>
@@ -100,7 +108,7 @@ export function PushLayer() {
       <button
         ref={layer}
         type="button"
-        class="fill push-layer"
+        class="fill grab push-layer"
         aria-label={t("scene.pushLayer")}
         onPointerDown={startPull}
         onPointerMove={(event) => {

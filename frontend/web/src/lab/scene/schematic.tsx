@@ -37,7 +37,7 @@ const TORQUES = ["disturbance_link_nm", "disturbance_motor1_nm", "disturbance_mo
 
 /** A disturbance torque: drawn at the arm of the link, or at the top of a motor. */
 const Torque = ({ of, radius }: { of: (typeof TORQUES)[number]; radius: number }) => (
-  <path class="schematic-torque" data-torque={of} data-radius={radius}>
+  <path class="outline is-warn" data-torque={of} data-radius={radius}>
     <title>{t(`channelNames.${of}`)}</title>
   </path>
 );
@@ -75,19 +75,19 @@ export function Schematic({ state }: { state: SessionState }) {
   }, []);
   const isHung = state.loads.some(({ active, load }) => active && load.kind === "mass");
   return (
-    <figure class="schematic">
+    <figure class="column schematic">
       <svg ref={picture} viewBox="-120 -120 240 240" role="img" aria-label={t("scene.schematic")}>
         <circle class="schematic-body" r="46" />
         <g data-channel="position_reference_rad" data-lane="1">
-          <path class="schematic-reference" d="M0 46V104" />
+          <path class="outline" stroke-dasharray="1 6" d="M0 46V104" />
         </g>
         {[...state.lanes].reverse().map(({ lane, segments }) => {
           const { colour } = lineStyleOfLane(segments.at(-1)?.line_style ?? 0, lane === 1);
           return (
             <g key={lane} data-channel="position_rad" data-lane={lane}>
               <path
-                class={lane === 1 ? "schematic-link is-own" : "schematic-link"}
-                style={{ stroke: `var(--plot-${colour})` }}
+                class="outline"
+                style={{ "--tone": `var(--plot-${colour})`, strokeWidth: lane === 1 ? 10 : 5 }}
                 d="M0 0V92"
               />
               {lane === 1 && (
@@ -95,13 +95,15 @@ export function Schematic({ state }: { state: SessionState }) {
                   <Torque of="disturbance_link_nm" radius={LINK_RADIUS} />
                 </g>
               )}
-              {lane === 1 && isHung && <circle class="schematic-load" cy="98" r="12" />}
+              {lane === 1 && isHung && (
+                <circle class="solid is-warn schematic-load" cy="98" r="12" />
+              )}
             </g>
           );
         })}
         <Torque of="disturbance_motor1_nm" radius={58} />
         <Torque of="disturbance_motor2_nm" radius={32} />
-        <circle class="schematic-axis" r="6" />
+        <circle class="solid" r="6" />
       </svg>
       <figcaption class="hint">{t("scene.noWebGl")}</figcaption>
     </figure>

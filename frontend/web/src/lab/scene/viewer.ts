@@ -1,12 +1,14 @@
 /** Access to viser's page, which has the same origin: its camera, and its graphics quality. */
 import { effect, signal } from "@preact/signals";
+import { limitRate } from "../../core/rate";
 import { isArm } from "../../core/state/arm";
 import { readStored, store } from "../../core/stored";
-import { type CameraName, placeCamera, type SceneKind, type View } from "./cameras";
+import { type CameraName, cameraNames, placeCamera, type SceneKind, type View } from "./cameras";
 import { type Camera, placeOf } from "./ray";
 
 interface Viser {
   messageQueue: Record<string, unknown>[];
+  nodeRefFromName: Record<string, object | undefined>;
   camera?: Camera;
   requestRender(): void;
 }
@@ -21,6 +23,8 @@ const DISPENSABLE = ["/ground", "/a/stand", "/a/t1", "/a/t2", "/light/rim"];
 const NAMES = ["/a/n1", "/a/n2", "/a/c/s/n3", "/a/c/p/n4", "/a/l/v/n5", "/a/l/n6"];
 const LOW_PERIOD_MS = 1000 / 15;
 const STORE = "svsa.graphics";
+/** A part of every scene, which low graphics keeps. */
+const IN_SCENE = "/light/key";
 const WAIT_MS = 100;
 const UNMOVED = 0.01;
 
@@ -45,14 +49,19 @@ export const sceneKind = (): SceneKind => (isArm.value ? "arm" : "actuator");
 /** The preset that the camera was last moved to. */
 let sent: { name: CameraName; view: View } | null = null;
 
-/** The initial preset of a view; returns its camera. */
-export function beginAt(name: CameraName, aspect: number): View {
+function choosePreset(name: CameraName, aspect: number): View {
   sent = { name, view: placeCamera(name, aspect, sceneKind()) };
   return sent.view;
 }
 
+/** The first camera of a view that is loaded: the preset before a lost connection, or the whole. */
+export function beginView(aspect: number): View {
+  const name = cameraNames(sceneKind()).find((preset) => preset === sent?.name);
+  return choosePreset(name ?? "whole", aspect);
+}
+
 export function setCamera(name: CameraName): void {
-  const { position, look_at, fov_deg } = beginAt(name, cameraNow()?.aspect ?? 1);
+  const { position, look_at, fov_deg } = choosePreset(name, cameraNow()?.aspect ?? 1);
   const fov = (fov_deg * Math.PI) / 180;
   viser
     .peek()
@@ -65,17 +74,27 @@ export function setCamera(name: CameraName): void {
 }
 
 /**
- * Wait until viser's page has loaded in the frame. A camera that was selected, or a picture that
- * changed its shape, until then takes effect now.
+ * Follow viser's page in the frame. With each scene that it receives, the first one and those after
+ * lost connections of its own, it returns to its first camera and shows all parts: whatever the
+ * user selected before takes effect again, and the camera fits a picture that changed its shape.
  */
 export function enterView(frame: HTMLIFrameElement): void {
-  const loadedViser = (frame.contentWindow as ViserWindow | null)?.__viserMutable;
-  if (!loadedViser?.camera) {
-    if (frame.isConnected) setTimeout(() => enterView(frame), WAIT_MS);
-    return;
-  }
-  viser.value = limitFrameRate(loadedViser);
-  if (sent !== null) setCamera(sent.name);
+  const page = frame.contentWindow as ViserWindow | null;
+  const opened = frame.contentDocument;
+  let scene: object | undefined;
+  const look = () => {
+    if (page === null || !frame.isConnected || frame.contentDocument !== opened) return;
+    const loadedViser = page.__viserMutable;
+    const received = loadedViser?.camera && loadedViser.nodeRefFromName[IN_SCENE];
+    if (received && received !== scene) {
+      if (scene === undefined) viser.value = limitFrameRate(loadedViser);
+      else applyGraphics();
+      if (sent !== null) setCamera(sent.name);
+      scene = received;
+    }
+    setTimeout(look, WAIT_MS);
+  };
+  look();
 }
 
 /** Fit the preset to a picture of another shape, unless the user has moved the camera since. */
@@ -90,22 +109,7 @@ export function fitCamera(): void {
 /** Limit viser to 15 frames per second with low graphics. */
 function limitFrameRate(loadedViser: Viser): Viser {
   const draw = loadedViser.requestRender.bind(loadedViser);
-  let last = 0;
-  let isWaiting = false;
-  loadedViser.requestRender = () => {
-    const wait = isLow.peek() ? last + LOW_PERIOD_MS - performance.now() : 0;
-    if (wait <= 0) {
-      last = performance.now();
-      draw();
-    } else if (!isWaiting) {
-      isWaiting = true;
-      setTimeout(() => {
-        isWaiting = false;
-        last = performance.now();
-        draw();
-      }, wait);
-    }
-  };
+  loadedViser.requestRender = limitRate(draw, () => (isLow.peek() ? LOW_PERIOD_MS : 0)).request;
   return loadedViser;
 }
 
@@ -120,8 +124,12 @@ function show(nodes: readonly string[], visible: boolean): void {
   viser.value?.requestRender();
 }
 
+function applyGraphics(): void {
+  show(DISPENSABLE, !isLow.value);
+  show(NAMES, areNamesOn.value);
+}
+
 /** Show or hide the details and the names, whenever the setting or the view changes. */
 export function watchGraphics(): void {
-  effect(() => show(DISPENSABLE, !isLow.value));
-  effect(() => show(NAMES, areNamesOn.value));
+  effect(applyGraphics);
 }

@@ -65,7 +65,7 @@ const WRITE: Record<CommandKind, Write> = {
   law: (law, on) => assign(on, "law", toPython(law)),
   laws: (laws, on) => [`${on}.set_laws(${(laws as unknown[]).map(toPython).join(", ")})`],
   comparisons: (lanes, on) =>
-    on === "joint2"
+    /^joint[^1]/.test(on)
       ? (lanes as unknown[]).map((lane, index) => setLane(on, index + 2, lane))
       : assign("session", "comparisons", `[${(lanes as unknown[]).map(buildLane).join(", ")}]`),
   lane: (argument, on) => {

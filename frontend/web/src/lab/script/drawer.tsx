@@ -27,12 +27,12 @@ function CallRow({ call, language }: { call: Call; language: Language }) {
   const snippet = toSnippet(call, language, API);
   const isBad = call.status === null || call.status >= 400;
   return (
-    <li>
+    <li class="line loose">
       <span class={`hint ${isBad ? "bad strong" : ""}`}>
         {isBad && <span aria-hidden="true">▲ </span>}
         {outcome(call)}
       </span>
-      <code>{snippet}</code>
+      <code class="grow breaks small">{snippet}</code>
       <CopyButton
         class="quiet"
         read={() => snippet}
@@ -56,7 +56,7 @@ function CallList({ language }: { language: Language }) {
   return (
     <ol
       ref={list}
-      class="calls"
+      class="scroller calls"
       aria-label={t("script.list")}
       // biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls is reached by key
       tabIndex={0}
@@ -83,7 +83,7 @@ export function CallsDrawer() {
   const isEmpty = calls.value.length === 0;
   return (
     <section class="column joined rigid drawer" aria-label={t("script.title")}>
-      <div class="row drawer-head">
+      <div class="row">
         <h2>{t("script.title")}</h2>
         <Choice
           label={t("script.language")}

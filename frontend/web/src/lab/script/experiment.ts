@@ -23,19 +23,21 @@ interface Joint {
   defaults: Fields;
 }
 
-const armOf = (configuration: Fields) => configuration.arm as (Fields & { joint2: Fields }) | null;
+const armOf = (configuration: Fields) =>
+  configuration.arm as (Fields & { other_joints: Fields[] }) | null;
 
-/** The joints; a session opens with the law of joint 1, whose comparisons are first set for both. */
+/** The joints; a session opens with the law of joint 1, whose comparisons are first set for all. */
 function listJoints({ configuration, ...origin }: RunOrigin): Joint[] {
   const { law, comparisons } = configuration;
   const [arm, plain] = [armOf(configuration), armOf(origin.defaults)];
   const defaults = { ...origin.defaults, law };
-  if (!arm || !plain) return [{ on: "session", configuration, defaults }];
-  const joint2 = { configuration: arm.joint2, defaults: { ...plain.joint2, law, comparisons } };
-  return [
-    { on: "joint1", configuration, defaults },
-    { on: "joint2", ...joint2 },
-  ];
+  if (!arm?.other_joints.length || !plain) return [{ on: "session", configuration, defaults }];
+  const others = arm.other_joints.map((joint, index) => ({
+    on: `joint${index + 2}`,
+    configuration: joint,
+    defaults: { ...plain.other_joints[index], law, comparisons },
+  }));
+  return [{ on: "joint1", configuration, defaults }, ...others];
 }
 
 /** Settings of a joint that a new session lacks. */
@@ -92,6 +94,13 @@ function writeChanges({ commands, ...origin }: RunOrigin, joints: readonly Joint
   return lines;
 }
 
+/** Names of the joints of an arm in the script. */
+function openJoints(joints: readonly Joint[]): string[] {
+  if (joints.length < 2) return [];
+  const numbers = joints.map((_, index) => index + 1).join(", ");
+  return [`${joints.map(({ on }) => on).join(", ")} = map(session.open_joint, (${numbers}))`];
+}
+
 const secondsOf = (tick: number, periodS: number): string =>
   String(Number((tick * periodS).toFixed(6)));
 
@@ -129,7 +138,7 @@ it is simulated too.`;
   const { hint, option, head, address, call } = writeOpening(origin);
   const joints = listJoints(origin);
   const lines = [
-    ...(joints.length > 1 ? ["joint1, joint2 = map(session.open_joint, (1, 2))"] : []),
+    ...openJoints(joints),
     "session.pause()",
     ...joints.flatMap(writeJoint),
     ...writeArm(origin),

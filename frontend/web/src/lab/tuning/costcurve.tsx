@@ -1,7 +1,8 @@
 import type { Candidate } from "../../core/api/jobs";
+import { Swatch } from "../../core/plots/legend";
 import { t } from "../../core/text/t";
 import { formatNumber } from "../../core/units";
-import { Curves } from "../design/curves";
+import { Curves, LOOKS } from "../design/curves";
 import { bestSoFar } from "./tuning";
 
 /** The best cost over the candidates, with the cost of each. */
@@ -33,9 +34,13 @@ export function CostCurve({
           { look: "tried", points: best },
         ]}
       />
-      <p class="row small responses-legend">
-        <span>{t("tuning.best")}</span>
-        <span class="is-each">{t("tuning.each")}</span>
+      <p class="row small">
+        <span>
+          <Swatch look={LOOKS.tried} /> {t("tuning.best")}
+        </span>
+        <span>
+          <Swatch look={LOOKS.each} /> {t("tuning.each")}
+        </span>
       </p>
     </div>
   );

@@ -36,7 +36,7 @@ function Choice() {
   const form = useRequest(schema, choices, { law, session: sessionName });
   return (
     <form
-      class="row small tuning-choice"
+      class="row small"
       onSubmit={(event) => {
         event.preventDefault();
         void form.attempt(start);
@@ -139,7 +139,7 @@ function TuningResult() {
 export function TunePanel() {
   useEffect(() => void findNewest(), []);
   return (
-    <Panel title={t("tuning.title")} class="is-wide tuning" onClose={close}>
+    <Panel title={t("tuning.title")} class="is-wide" onClose={close}>
       <div class="stack">
         <p class="hint">{t("tuning.about")}</p>
         <Choice />

@@ -72,9 +72,9 @@ function MakingNote({ run }: { run: RunDetails }) {
 function Exports({ run }: { run: RunDetails }) {
   const isMaking = fileExport.value?.stage === "making";
   return (
-    <Popup class="button run-exports" title={t("run.downloadHint")} button={t("run.download")}>
+    <Popup class="button" title={t("run.downloadHint")} button={t("run.download")}>
       {(close) => (
-        <ul class="menu exports">
+        <ul class="menu">
           {KINDS.map((kind) => {
             const path = exportPath(run.id, kind);
             if (kind === "html") {

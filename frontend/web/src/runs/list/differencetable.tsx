@@ -7,8 +7,8 @@ type Row = RunDifference["differences"][number];
 function Group({ name, rows }: { name: string; rows: readonly Row[] }) {
   return (
     <tbody>
-      <tr class="metrics-group">
-        <th scope="colgroup" colSpan={1 + (rows[0]?.values.length ?? 0)}>
+      <tr>
+        <th scope="colgroup" class="hint strong" colSpan={1 + (rows[0]?.values.length ?? 0)}>
           {name}
         </th>
       </tr>

@@ -64,7 +64,7 @@ function SortChoice() {
 
 export function Finder() {
   return (
-    <search class="line grow runs-finder">
+    <search class="row grow runs-finder">
       <label class="runs-search">
         <span class="visually-hidden">{t("runs.search")}</span>
         <input

@@ -22,7 +22,7 @@ const RECORDING_MS = 3000;
 function Overlayer() {
   const count = selectedRuns.value.length;
   return (
-    <div class="row end runs-overlayer">
+    <div class="row end">
       {count > 0 && (
         <button
           type="button"
@@ -118,7 +118,7 @@ export function ListPage() {
   }, [isGrowing]);
   return (
     <>
-      <div class="row runs-head">
+      <div class="row">
         <h2>
           {t("runs.title")}{" "}
           {list && <small class="unit">{t("runs.count", { count: list.total })}</small>}

@@ -23,10 +23,10 @@ export function OriginLink({ origin }: { origin: Origin }) {
       : t("runs.at", { time: t("runs.seconds", { seconds: Number(timeS.toFixed(3)) }) });
   const message = t("runs.branchOf", { name, time: at }).trim();
   return (
-    <span class="hint run-origin" title={message}>
-      <svg viewBox="0 0 12 12" aria-hidden="true">
-        <path d="M3 1v10M3 8c0-3 6-2 6-6" />
-      </svg>
+    <span class="hint clip grow" title={message}>
+      <svg width="11" height="11" viewBox="0 0 12 12" aria-hidden="true">
+        <path d="M3 1v10M3 8c0-3 6-2 6-6" fill="none" stroke="currentColor" stroke-width="1.6" />
+      </svg>{" "}
       <span class="visually-hidden">{t("runs.branch")} </span>
       {title === null ? (
         <Highlighted>{name}</Highlighted>
@@ -74,7 +74,7 @@ export function PrivateBanner() {
   const note = session.value?.note;
   const isEnded = phase.value === "ended";
   return (
-    <aside class="row private-banner" aria-label={t("private.label")}>
+    <aside class="row banner is-accent" aria-label={t("private.label")}>
       <p role="status">
         <strong>
           {isEnded

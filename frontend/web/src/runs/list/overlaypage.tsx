@@ -161,7 +161,7 @@ export function OverlayPage({ runs }: { runs: readonly string[] }) {
   }, [key]);
   return (
     <>
-      <div class="row runs-head">
+      <div class="row">
         <PlaceLink to={{ kind: "list" }} class="button">
           ← {t("run.toList")}
         </PlaceLink>
@@ -173,7 +173,7 @@ export function OverlayPage({ runs }: { runs: readonly string[] }) {
       {curves === null && <p class="empty">{t("runs.loading")}</p>}
       {curves?.length === 0 && <p class="empty">{t("overlay.nothing")}</p>}
       {curves && curves.length > 0 && (
-        <div class="surface column overlay">
+        <div class="surface card column tight grow overlay">
           <OverlayCurves curves={curves} judged={judged} />
           {runs.length > 1 && (
             <VerdictPanel key={key} curves={curves} judged={judged} onJudged={setJudged} />

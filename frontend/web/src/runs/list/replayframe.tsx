@@ -56,14 +56,14 @@ export function ReplayFrame({ source, name, startS, onMoment }: ReplayFrameProps
   }, [onMoment]);
   useSignalEffect(() => replayOf()?.setTheme(theme.value));
   return (
-    <div class="column joined replay-place">
+    <div class="replay-place">
       {answer === null && (
-        <p class="muted replay-waiting" role="status">
+        <p class="muted over" role="status">
           {t("run.waiting")}
         </p>
       )}
       {answer?.refusal && (
-        <div class="muted replay-waiting" role="alert">
+        <div class="muted over" role="alert">
           <p class="problem">{answer.refusal}</p>
           <button type="button" class="button" onClick={() => setTries(tries + 1)}>
             {t("run.again")}
@@ -73,7 +73,6 @@ export function ReplayFrame({ source, name, startS, onMoment }: ReplayFrameProps
       <iframe
         key={address}
         ref={frame}
-        class="replay-frame"
         hidden={Boolean(answer?.refusal)}
         title={t("run.replay", { name })}
         src={atMoment(source, moment.current)}

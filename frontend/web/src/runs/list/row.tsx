@@ -29,14 +29,14 @@ function useOverview({ id, ticks }: RunSummary): RunOverview | null {
 function State({ run }: { run: RunSummary }) {
   if (run.fault !== null) {
     return (
-      <strong class="bad small run-state is-fault" title={run.fault.message}>
+      <strong class="bad small clip" title={run.fault.message}>
         ▲ <Highlighted>{run.fault.label}</Highlighted>
       </strong>
     );
   }
   if (run.state === "complete") return null;
   return (
-    <strong class={`bad small run-state is-${run.state}`} title={run.message}>
+    <strong class={"bad small"} title={run.message}>
       {run.state === "recording" ? "● " : "▲ "}
       {t(`runs.state.${run.state}`)}
     </strong>
@@ -48,7 +48,6 @@ function Choose({ run }: { run: RunSummary }) {
   return (
     <input
       type="checkbox"
-      class="run-choose"
       aria-label={t("runs.choose", { name: run.title })}
       checked={isChosen}
       disabled={run.ticks === 0 || (!isChosen && selectedRuns.value.length >= MAX_SELECTED)}
@@ -61,7 +60,7 @@ function Remove({ run }: { run: RunSummary }) {
   return (
     <button
       type="button"
-      class="button is-small is-icon muted run-delete"
+      class="quiet muted"
       aria-label={t("runs.removeThis", { name: run.title })}
       title={t("runs.remove")}
       disabled={run.state === "recording"}
@@ -83,20 +82,20 @@ function Name({ run }: { run: RunSummary }) {
         {run.deleted === null ? (
           <PlaceLink
             to={{ kind: "run", run: run.id, timeS: 0 }}
-            class={run.name === "" ? "is-own" : "is-given"}
+            class={run.name === "" ? "clip" : "clip strong"}
             title={run.title}
           >
             <Highlighted>{run.title}</Highlighted>
           </PlaceLink>
         ) : (
-          <span title={run.title}>
+          <span class="clip" title={run.title}>
             <Highlighted>{run.title}</Highlighted>
           </span>
         )}
         <State run={run} />
         <PlantMark kind={plantKindOfRun(run.plant)} />
         {run.tags.length > 0 && (
-          <span class="run-tags" title={run.tags.join(", ")}>
+          <span class="clip run-tags" title={run.tags.join(", ")}>
             {run.tags.map((tag) => (
               <span key={tag} class="tag">
                 <Highlighted>{tag}</Highlighted>
@@ -106,7 +105,7 @@ function Name({ run }: { run: RunSummary }) {
         )}
         {run.branch_of && <OriginLink origin={run.branch_of} />}
         {notes !== "" && (
-          <span class="hint run-notes" title={notes}>
+          <span class="hint clip grow" title={notes}>
             <Highlighted>{excerpt(notes, searchedWords.value)}</Highlighted>
           </span>
         )}
@@ -120,7 +119,7 @@ export function RunRow({ run }: { run: RunSummary }) {
   const isDeleted = run.deleted !== null;
   const overview = useOverview(run);
   return (
-    <tr class={`run-row ${run.name === "" ? "is-auto" : ""}`}>
+    <tr class={run.name === "" ? "is-auto" : ""}>
       <td class="run-pick">{!isDeleted && <Choose run={run} />}</td>
       <Name run={run} />
       <td class="run-spark">

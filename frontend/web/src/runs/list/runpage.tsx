@@ -62,13 +62,13 @@ function About({ run, onChanged }: AboutProps) {
     return answer !== null;
   };
   return (
-    <div class="grow run-about">
+    <div class="run-about">
       <h2 class="visually-hidden">{run.title}</h2>
       <div class="row">
         <Written
           label={t("run.name")}
           hint={run.settings?.name || run.id}
-          class="run-name"
+          class="strong run-name"
           longest={200}
           value={run.name}
           onWrite={(name) => write({ name })}
@@ -79,7 +79,7 @@ function About({ run, onChanged }: AboutProps) {
         {run.name !== "" && run.settings && <span class="hint clip">{run.settings.name}</span>}
         {run.branch_of && <OriginLink origin={run.branch_of} />}
         {run.fault && (
-          <strong class="bad small run-state is-fault" title={run.fault.message}>
+          <strong class="bad small clip" title={run.fault.message}>
             ▲ {t("runs.fault", { what: run.fault.label })}
           </strong>
         )}
@@ -89,7 +89,7 @@ function About({ run, onChanged }: AboutProps) {
       <Written
         label={t("run.notes")}
         hint={t("run.notesHint")}
-        class="muted run-note"
+        class="block muted small"
         longest={10_000}
         value={run.notes}
         onWrite={(notes) => write({ notes })}
@@ -149,7 +149,7 @@ export function RunPage({ run: id, timeS }: { run: string; timeS: number }) {
   if (isMissing) return <Missing />;
   if (run === null) {
     return (
-      <div class="bar run-head">
+      <div class="bar row">
         <PlaceLink to={{ kind: "list" }} class="button">
           ← {t("run.toList")}
         </PlaceLink>
@@ -158,7 +158,7 @@ export function RunPage({ run: id, timeS }: { run: string; timeS: number }) {
   }
   return (
     <>
-      <div class="bar run-head">
+      <div class="bar row">
         <PlaceLink to={{ kind: "list" }} class="button">
           ← {t("run.toList")}
         </PlaceLink>

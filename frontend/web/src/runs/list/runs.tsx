@@ -18,7 +18,7 @@ function Inside({ at }: { at: RunsPlace }) {
 function Undo() {
   const run = deleted.value;
   return (
-    <div class="line loose floating undo" role="status" hidden={run === null}>
+    <div class="line loose floating toast" role="status" hidden={run === null}>
       {run && (
         <>
           <span>{t("runs.deleted", { name: run.title })}</span>
@@ -47,7 +47,10 @@ export function Runs({ at }: { at: RunsPlace }) {
     runsProblem.value = "";
   }, [at.kind]);
   return (
-    <main class={`page ${at.kind === "run" ? "is-run" : "runs"}`} aria-label={t("runs.title")}>
+    <main
+      class={at.kind === "run" ? "page column grow is-run" : "page column scroller"}
+      aria-label={t("runs.title")}
+    >
       <ErrorLine>{runsProblem.value}</ErrorLine>
       <Inside at={at} />
       <Undo />

@@ -100,13 +100,18 @@ export function Sparkline({ overview }: { overview: RunOverview | null }) {
     : t("runs.noSparkline");
   return (
     <svg
-      class="block sparkline"
+      class="drawing"
+      height="20"
+      fill="none"
+      stroke-width="1.4"
       viewBox={`0 0 ${WIDTH} ${HEIGHT}`}
       preserveAspectRatio="none"
       role="img"
       aria-label={label}
     >
-      {overview && <path class="spark-zero" d={`M0 ${overview.zero}H${WIDTH}`} />}
+      {overview && (
+        <path class="grid" vector-effect="non-scaling-stroke" d={`M0 ${overview.zero}H${WIDTH}`} />
+      )}
       {overview?.paths
         .map(({ lineStyle: number, path }, index) => {
           const lineStyle = lineStyleOf(number);
@@ -115,6 +120,7 @@ export function Sparkline({ overview }: { overview: RunOverview | null }) {
               key={index}
               style={{ stroke: `var(--plot-${lineStyle.colour})` }}
               d={path}
+              vector-effect="non-scaling-stroke"
               stroke-dasharray={lineStyle.dash.join(" ") || undefined}
             />
           );

@@ -15,7 +15,7 @@ function Head({ name, hint, sort: column, isDownFirst, isNumber, width, ...rest 
   const look = `${rest.class} ${isNumber ? "number" : ""}`;
   if (column === undefined) {
     return (
-      <th scope="col" class={`${look} is-plain`} style={{ width }} title={hint}>
+      <th scope="col" class={look} style={{ width }} title={hint}>
         {name}
       </th>
     );

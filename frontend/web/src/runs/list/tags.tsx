@@ -27,10 +27,11 @@ export function Tags({ run, onChanged, onRefused }: TagsProps) {
   return (
     <ul class="row" aria-label={t("runs.tagsOf", { name: run.title })}>
       {run.tags.map((tag) => (
-        <li key={tag} class="tag">
+        <li key={tag} class="line tight tag">
           {tag}
           <button
             type="button"
+            class="quiet muted"
             aria-label={t("runs.removeTag", { tag })}
             title={t("runs.removeTag", { tag })}
             onClick={() => void put(run.tags.filter((other) => other !== tag))}
@@ -45,7 +46,7 @@ export function Tags({ run, onChanged, onRefused }: TagsProps) {
             {t("runs.addTag")}
           </button>
         ) : (
-          <form class="line tag-form" onSubmit={add}>
+          <form class="line" onSubmit={add}>
             <label class="visually-hidden" for={id}>
               {t("runs.newTag")}
             </label>

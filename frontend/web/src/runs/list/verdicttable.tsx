@@ -22,7 +22,7 @@ function Row({ assessment }: { assessment: CurveAssessment }) {
   return (
     <tr>
       <th scope="row">
-        <span class="line joined metrics-name">
+        <span class="line joined">
           <Swatch look={assessment.curve.lineStyle} />
           {nameCurve(assessment.curve)}
         </span>

@@ -5,7 +5,6 @@ import type { Run } from "./data";
 const MAX_ENTRIES = 200;
 
 const isPlain = (value: unknown) => value === null || typeof value !== "object";
-const words = (key: string) => key.replaceAll("_", " ");
 
 /** Any JSON value: simple ones as text, others as a list of names and values. */
 function Value({ value }: { value: unknown }) {
@@ -18,8 +17,10 @@ function Value({ value }: { value: unknown }) {
     <dl>
       {entries.slice(0, MAX_ENTRIES).map(([key, inner]) => (
         <div key={key} class={isPlain(inner) ? "" : "is-group"}>
-          <dt>{Array.isArray(value) ? Number(key) + 1 : words(key)}</dt>
-          <dd>
+          <dt class={isPlain(inner) ? "" : "strong"}>
+            {Array.isArray(value) ? Number(key) + 1 : key}
+          </dt>
+          <dd class="breaks">
             <Value value={inner} />
           </dd>
         </div>
@@ -36,7 +37,7 @@ export function Header({ run }: { run: Run }) {
   const facts = Object.entries(run.details).filter(([, value]) => value !== "" && isPlain(value));
   return (
     <header class="bar">
-      <div class="name">
+      <div>
         <h1 class="clip">{run.title}</h1>
         <p class="hint">
           {t("replay.name")}, {t("replay.recorded")}
@@ -45,7 +46,7 @@ export function Header({ run }: { run: Run }) {
       <dl class="grow small run-facts">
         {facts.slice(0, 4).map(([key, value]) => (
           <div key={key}>
-            <dt>{words(key)}</dt>
+            <dt>{key}</dt>
             <dd class="clip" title={String(value)}>
               {String(value)}
             </dd>
@@ -55,7 +56,7 @@ export function Header({ run }: { run: Run }) {
       <button type="button" class="button" onClick={() => dialog.current?.showModal()}>
         {t("replay.about.open")}
       </button>
-      <dialog ref={dialog} class="floating about" aria-label={t("replay.about.open")}>
+      <dialog ref={dialog} class="floating scroller about" aria-label={t("replay.about.open")}>
         <div class="spread tabular about-head">
           <h2>{t("replay.about.open")}</h2>
           <button type="button" class="button" onClick={() => dialog.current?.close()}>

@@ -3,6 +3,7 @@ import type { Joint, StreamedName } from "../../core/api/types";
 import { CHANNELS, type ChannelName, PRESETS, spanOf, unitOf } from "../../core/plots/channels";
 import { ownerOf, type Trace } from "../../core/plots/definitions";
 import { composeOfJoint } from "../../core/plots/joints";
+import { listJoints } from "../../core/state/joints";
 import { t } from "../../core/text/t";
 import type { Recording } from "./data";
 
@@ -64,7 +65,8 @@ export function definePlots(recording: Recording): ReplayPlot[] {
     }),
   );
   const isRecorded = (name: ChannelName) => Object.hasOwn(curves.channels, name);
-  const joints: readonly (Joint | null)[] = recording.run.arm === null ? [null] : [1, 2];
+  const count = recording.run.arm?.chain.length ?? 1;
+  const joints: readonly (Joint | null)[] = recording.run.arm === null ? [null] : listJoints(count);
   return SHOWN.flatMap((preset) => joints.map((joint) => ({ preset, joint })))
     .map(({ preset, joint }) => {
       const channels = PRESETS[preset].filter(isRecorded);
@@ -76,8 +78,13 @@ export function definePlots(recording: Recording): ReplayPlot[] {
         title: joint === null ? title : t("plots.ofJoint", { joint, title }),
         unit: unitOf(channels),
         span: spanOf(channels),
-        choices: composeOfJoint(channels, cast, joint).groups.map(({ key, label }) => {
-          const { groups, common } = composeOfJoint(channels.filter(belongs(key)), cast, joint);
+        choices: composeOfJoint(channels, cast, joint, count).groups.map(({ key, label }) => {
+          const { groups, common } = composeOfJoint(
+            channels.filter(belongs(key)),
+            cast,
+            joint,
+            count,
+          );
           const traces = groups.flatMap((group) => group.traces);
           return { label, curves: joinPieces(recording, [...traces, ...common]) };
         }),

@@ -2,7 +2,6 @@
 import type { ArmSetup } from "../../core/api/arm";
 import type { MeasuredWindow, Metrics } from "../../core/api/types";
 import type { RunEvent } from "../../core/plots/eventlines";
-import { type PlantKind, plantKindOfRun } from "../../core/state/plant";
 import type { Measured } from "../list/measured";
 
 export interface Track {
@@ -46,6 +45,8 @@ export interface Run {
   arm: ArmSetup["links"] | null;
   /** For every lane, in the order of time. */
   segments: LaneSegment[][];
+  plant: "simulated" | "emulated" | "bench";
+  /** By label. */
   details: Record<string, unknown>;
   events: RunEvent[];
   /** Window of the metrics, in the time of the page. */
@@ -64,11 +65,6 @@ export interface Recording {
   arrays: Float32Array[];
   /** Time of the last sample, s. */
   endS: number;
-}
-
-/** The label next to the picture; empty for a simulation. */
-export function findMark({ details: { plant } }: Run): PlantKind | null {
-  return plant === "emulated" || plant === "bench" ? plantKindOfRun(plant) : null;
 }
 
 /** Read the run from the page; throws if it is damaged. */

@@ -2,7 +2,6 @@ import type { Metrics as LaneMetrics } from "../../core/api/types";
 import { AllMetrics } from "../../core/plots/allmetrics";
 import { lineStyleAt, lineStyleOfLane } from "../../core/plots/linestyles";
 import { type MetricsColumn, MetricsTable } from "../../core/plots/metricstable";
-import { LANES_OF_ARM } from "../../core/state/joints";
 import { t } from "../../core/text/t";
 
 import { formatFixed, formatNumber, toDegrees } from "../../core/units";
@@ -18,7 +17,7 @@ const lineStyleIn = ({ segments, window }: Run, lane: number): number =>
   lineStyleAt(segments[lane], window.start_s) ?? lane;
 
 /** Number of the lanes that are not comparisons. */
-const ownLanes = ({ arm }: Run): number => (arm === null ? 1 : LANES_OF_ARM);
+const ownLanes = ({ arm }: Run): number => arm?.chain.length ?? 1;
 
 function Metrics({ run }: { run: Run }) {
   const { window, metrics } = run;
@@ -90,7 +89,7 @@ function Details({ run }: { run: Run }) {
     isDisturbed: isDisturbed(window),
   }));
   return (
-    <details>
+    <details class="small">
       <summary>{t("metrics.all")}</summary>
       <AllMetrics caption={describeMeasured(window)} lanes={lanes} />
     </details>
@@ -99,7 +98,7 @@ function Details({ run }: { run: Run }) {
 
 function Events({ run }: { run: Run }) {
   return (
-    <div class="menu events">
+    <div class="menu small divided">
       <h2>{t("replay.events.heading")}</h2>
       {run.events.length === 0 && <p class="hint">{t("replay.events.none")}</p>}
       <ul>

@@ -27,11 +27,10 @@ function Scrubber({ recording: { run, endS } }: { recording: Recording }) {
     if (input.current === null) return;
     input.current.value = String(timeS.value);
     input.current.setAttribute("aria-valuetext", seconds);
-    input.current.style.setProperty("--done", String(endS > 0 ? timeS.value / endS : 0));
   });
   return (
     <>
-      <div class="number time">
+      <div class="number nowrap time">
         <output ref={output} aria-label={t("replay.transport.time")} />
         <span>
           {t("replay.transport.of", {
@@ -66,7 +65,7 @@ function Scrubber({ recording: { run, endS } }: { recording: Recording }) {
 
 export function Transport({ recording }: { recording: Recording }) {
   return (
-    <section class="bar is-foot transport" aria-label={t("replay.transport.heading")}>
+    <section class="bar row is-foot transport" aria-label={t("replay.transport.heading")}>
       <button
         type="button"
         class="button is-primary play"

@@ -1,13 +1,15 @@
 import { effect } from "@preact/signals";
 import { useCallback, useEffect, useRef, useState } from "preact/hooks";
 import { lineStyleOf } from "../../core/plots/linestyles";
-import { LANES_OF_ARM, nameArms } from "../../core/state/joints";
+import { limitRate } from "../../core/rate";
+import { nameArms } from "../../core/state/joints";
+import { plantKindOfRun } from "../../core/state/plant";
 import { theme } from "../../core/state/preferences";
 import { t } from "../../core/text/t";
 import { PlantMark } from "../../core/widgets/plantmark";
 import { SceneLabels } from "../../lab/scene/labels";
 import { handleKey, timeS } from "./clock";
-import { findMark, type Recording, type Run } from "./data";
+import type { Recording, Run } from "./data";
 import { Scene } from "./scene";
 
 const FASTEST_MS = 1000 / 30;
@@ -16,24 +18,33 @@ const PATIENCE_MS = 30_000;
 
 /** Shows the clock's time in 3D, at most 30 times per second. */
 function followClock(scene: Scene): () => void {
-  let shownAt = 0;
-  let pending = 0;
-  const show = () => {
-    pending = 0;
-    shownAt = performance.now();
-    scene.show(timeS.peek());
-  };
+  const { request, cancel } = limitRate(
+    () => scene.show(timeS.peek()),
+    () => FASTEST_MS - 2,
+  );
   const stop = effect(() => {
     void timeS.value;
-    const wait = FASTEST_MS - 2 - (performance.now() - shownAt);
-    if (wait <= 0) show();
-    else if (pending === 0) pending = window.setTimeout(show, wait);
+    request();
   });
   return () => {
-    window.clearTimeout(pending);
+    cancel();
     stop();
   };
 }
+
+/** The colors of the scene, the same in light and dark. */
+const COLOURS: Readonly<Record<string, string>> = {
+  actuator: "rgb(222 226 231)",
+  vermilion: "rgb(213 94 0 / 60%)",
+  green: "rgb(0 158 115 / 60%)",
+  purple: "rgb(184 84 148 / 60%)",
+  blue: "rgb(0 114 178 / 60%)",
+  orange: "rgb(214 140 10 / 60%)",
+  ellipse: "rgb(122 82 186 / 50%)",
+  reference: "rgb(24 168 156 / 50%)",
+};
+
+const Dot = ({ of }: { of: string }) => <i class="dot" style={{ background: COLOURS[of] }} />;
 
 /** The outlines of a lane have the colors of its curves. */
 const coloursOf = ({ segments }: Run, lane: number) => [
@@ -44,7 +55,8 @@ export function View({ recording: { run, arrays } }: { recording: Recording }) {
   const frame = useRef<HTMLIFrameElement>(null);
   const [state, setState] = useState<"starting" | "shown" | "failed">("starting");
   const present = useCallback(() => frame.current, []);
-  const [own, plants] = run.arm === null ? [1, run.lanes] : [LANES_OF_ARM, nameArms(run.lanes)];
+  const own = run.arm?.chain.length ?? 1;
+  const plants = run.arm === null ? run.lanes : nameArms(run.lanes, own);
   useEffect(() => {
     const element = frame.current;
     if (element === null) return;
@@ -67,30 +79,30 @@ export function View({ recording: { run, arrays } }: { recording: Recording }) {
     };
   }, [run, arrays]);
   return (
-    <section class={`surface view is-${state}`} aria-label={t("replay.view")}>
+    <section class={`surface column joined view is-${state}`} aria-label={t("replay.view")}>
       <iframe ref={frame} title={t("replay.view")} />
       {state === "shown" && <SceneLabels frame={present} />}
-      <PlantMark kind={findMark(run)} />
-      {state === "failed" && <p class="muted view-problem">{t("replay.noView")}</p>}
+      <PlantMark kind={plantKindOfRun(run.plant)} />
+      {state === "failed" && <p class="muted over">{t("replay.noView")}</p>}
       <ul class="row small view-legend">
         {plants.map((name, index) => (
-          <li key={`${index}.${name}`}>
+          <li key={`${index}.${name}`} class="line tight">
             {index === 0 ? (
-              <i class="is-actuator" />
+              <Dot of="actuator" />
             ) : (
-              coloursOf(run, own * index).map((colour) => <i key={colour} class={`is-${colour}`} />)
+              coloursOf(run, own * index).map((colour) => <Dot key={colour} of={colour} />)
             )}
             <span class="legend-name">{name}</span>
             <small>{index === 0 ? t("replay.drawn.lane") : t("replay.drawn.ghost")}</small>
           </li>
         ))}
         <li>
-          <i class="is-reference" />
+          <Dot of="reference" />
           {t("replay.drawn.reference")}
         </li>
         {run.arm !== null && (
           <li>
-            <i class="is-ellipse" />
+            <Dot of="ellipse" />
             {t("replay.drawn.ellipse")}
           </li>
         )}

@@ -40,13 +40,13 @@ function Line({ line, now }: { line: AuditLine; now: Date }) {
       <th scope="row" class="strong" title={line.person ?? undefined}>
         {line.name ?? t("classroom.audit.stranger")}
       </th>
-      <td class="audit-what" title={line.path ?? undefined}>
+      <td title={line.path ?? undefined}>
         {line.did} <small>{nameKind(line.kind)}</small>
       </td>
-      <td class="breaks audit-place">
+      <td class="breaks">
         <Place line={line} />
       </td>
-      <td class={`audit-end ${line.refused ? "bad" : "muted"}`}>{describeResult(line)}</td>
+      <td class={line.refused ? "bad" : "muted"}>{describeResult(line)}</td>
     </tr>
   );
 }
@@ -55,7 +55,7 @@ function Filters() {
   const { people = [], kinds = [] } = auditPage.value ?? {};
   const { person, kind, onlyRefused } = auditQuery.value;
   return (
-    <div class="row form audit-filters">
+    <div class="row form">
       <SelectField
         label={t("classroom.audit.person")}
         value={person}
@@ -125,7 +125,6 @@ function Lines() {
         <p class="hint">{t("classroom.audit.none")}</p>
       ) : (
         <Table
-          look="table audit-table"
           heads={[
             t("classroom.audit.time"),
             t("classroom.audit.who"),
@@ -151,8 +150,8 @@ export function AuditLog({ isOpen, onToggle }: { isOpen: boolean; onToggle: () =
   return (
     <section class="stack">
       <h3>
-        <button type="button" class="quiet audit-title" aria-expanded={isOpen} onClick={onToggle}>
-          {t("classroom.audit.title")}
+        <button type="button" class="quiet" aria-expanded={isOpen} onClick={onToggle}>
+          {isOpen ? "▾" : "▸"} {t("classroom.audit.title")}
         </button>
       </h3>
       {isOpen && <Lines />}

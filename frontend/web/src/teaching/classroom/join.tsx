@@ -139,7 +139,7 @@ export const rejoinCode = signal("");
 export function RejoinCodeBanner() {
   if (rejoinCode.value === "") return null;
   return (
-    <div class="row banner is-news" role="status">
+    <div class="row banner is-accent" role="status">
       <p>
         <strong>{t("classroom.rejoinCodeTitle")}</strong>{" "}
         <code class="strong nowrap class-return">{rejoinCode.value}</code>{" "}

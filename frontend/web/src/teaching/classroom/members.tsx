@@ -25,13 +25,8 @@ export function Members({ attempt }: { attempt: (act: () => Promise<unknown>) =>
   return (
     <section class="stack">
       <h3>
-        <button
-          type="button"
-          class="quiet audit-title"
-          aria-expanded={members.value !== null}
-          onClick={toggle}
-        >
-          {t("classroom.members.title")}
+        <button type="button" class="quiet" aria-expanded={members.value !== null} onClick={toggle}>
+          {members.value === null ? "▸" : "▾"} {t("classroom.members.title")}
         </button>
       </h3>
       {members.value !== null && <p class="hint">{t("classroom.members.hint")}</p>}
@@ -42,7 +37,7 @@ export function Members({ attempt }: { attempt: (act: () => Promise<unknown>) =>
         </p>
       )}
       {members.value !== null && (
-        <ul class="stack class-people">
+        <ul class="stack boxes">
           {members.value.map((member) => (
             <li key={member.id} class="row">
               <span class="grow">

@@ -58,7 +58,7 @@ function Inside() {
     return () => clearInterval(timer);
   }, []);
   return (
-    <div class="stack loose class-body">
+    <div class="stack loose">
       <ErrorLine>{note.value}</ErrorLine>
       {isInstructor.value && (
         <div class="row">
@@ -175,7 +175,7 @@ function Inside() {
       </div>
       {token.value !== "" && (
         <div>
-          {t("classroom.scriptOnce")} <pre class="class-token">{token.value}</pre>
+          {t("classroom.scriptOnce")} <pre>{token.value}</pre>
         </div>
       )}
     </div>
@@ -210,11 +210,11 @@ const READ_MS = 2000;
 /** A new class code, large, as text and QR code for projection. */
 function Code({ code }: { code: ClassCode }) {
   return (
-    <figure class="class-qr">
+    <figure class="stack">
       <figcaption>
         {t("classroom.codeOnce")} <strong class="class-code">{code.code}</strong>
       </figcaption>
-      <img src={code.qr} alt={t("classroom.qr", { code: code.code })} />
+      <img src={code.qr} width="240" alt={t("classroom.qr", { code: code.code })} />
       <span class="block breaks">{code.address}</span>
       {code.is_local && <strong>{t("classroom.onlyHere")}</strong>}
     </figure>

@@ -19,7 +19,7 @@ export function People({
   return (
     <Table
       label={t("classroom.here", { count: people.length })}
-      class="class-people"
+      class="boxes"
       caption={t("classroom.here", { count: people.length })}
       heads={[
         t("classroom.name"),

@@ -40,7 +40,7 @@ export function ErrorPlot({ course }: { course: ErrorHistory }) {
   const [fl, ndobc] = course.positionRad;
   return (
     <svg
-      class="drawing sunken course"
+      class="drawing sunken"
       viewBox={`0 0 ${WIDTH} ${HEIGHT}`}
       role="img"
       aria-label={t("claims.curve")}
@@ -58,16 +58,22 @@ export function ErrorPlot({ course }: { course: ErrorHistory }) {
           {t("plots.seconds", { seconds: time })}
         </text>
       ))}
-      <path class="course-load" d={`M${xOf(LOAD_S)} ${TOP}V${HEIGHT - BOTTOM}`} />
-      <text class="course-event" x={xOf(LOAD_S) + 4} y={TOP + 10}>
+      <path class="grid" stroke-dasharray="2 3" d={`M${xOf(LOAD_S)} ${TOP}V${HEIGHT - BOTTOM}`} />
+      <text class="strong" x={xOf(LOAD_S) + 4} y={TOP + 10}>
         {t("claims.loadMark")}
       </text>
-      <polyline class="course-fl" points={envelope(course.timeS, fl)} />
-      <polyline class="course-ndobc" points={envelope(course.timeS, ndobc)} />
-      <text class="course-event" x={WIDTH - RIGHT - 2} y={yOf(12) - 5} text-anchor="end">
+      <g fill="none" stroke-width="1.8">
+        <polyline
+          stroke="var(--plot-orange)"
+          stroke-dasharray="6 3"
+          points={envelope(course.timeS, fl)}
+        />
+        <polyline stroke="var(--plot-blue)" points={envelope(course.timeS, ndobc)} />
+      </g>
+      <text class="strong" x={WIDTH - RIGHT - 2} y={yOf(12) - 5} text-anchor="end">
         {t("controller.fl")}
       </text>
-      <text class="course-event" x={WIDTH - RIGHT - 2} y={yOf(0.002) - 6} text-anchor="end">
+      <text class="strong" x={WIDTH - RIGHT - 2} y={yOf(0.002) - 6} text-anchor="end">
         {t("controller.ndobc")}
       </text>
     </svg>

@@ -22,7 +22,7 @@ import { CONTROL_OF_LESSON, follow, resultsOf, resume, run, setUp, stepRun } fro
  */
 export function ExerciseBanner({ exercise }: { exercise: string }) {
   return (
-    <Banner look="is-news" words={t("lesson.hasSettings")}>
+    <Banner look="is-accent" words={t("lesson.hasSettings")}>
       <PlaceLink to={{ kind: "learn", exercise, step: "" }}>{t("lesson.resume")}</PlaceLink>
       <button
         type="button"

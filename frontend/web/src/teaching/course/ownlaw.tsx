@@ -33,7 +33,7 @@ export function OwnLaw({ savedLaw, html }: { savedLaw: Exercise["law"]; html: st
   const start = useMemo(() => findStart(html), [html]);
   return (
     <form
-      class="stack lesson-form"
+      class="stack form lesson-form"
       aria-label={t("lesson.law.label")}
       onSubmit={async (event) => {
         event.preventDefault();

@@ -13,7 +13,7 @@ function ExerciseCard({ of }: { of: ExerciseSummary }) {
   const isDone = of.submitted_at !== null;
   const word = isDone ? t("lesson.look") : of.done > 0 ? t("lesson.goOn") : t("lesson.begin");
   return (
-    <li class="surface card column exercise-card">
+    <li class="surface card column">
       <p class="hint">
         {t("lesson.exercise", { number: of.number })} ·{" "}
         {t("lesson.minutes", { minutes: of.minutes })} ·{" "}
@@ -22,7 +22,9 @@ function ExerciseCard({ of }: { of: ExerciseSummary }) {
           : t("lesson.points", { count: of.max_points })}
       </p>
       <h4>{of.title}</h4>
-      <p translate>{of.goal}</p>
+      <p class="grow" translate>
+        {of.goal}
+      </p>
       <progress
         value={of.done}
         max={of.steps}

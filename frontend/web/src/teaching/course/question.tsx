@@ -20,10 +20,10 @@ export function Question({ of, onDone }: Omit<TaskProps, "exercise">) {
         });
       }}
     >
-      <fieldset disabled={savedAnswer !== null}>
+      <fieldset class="stack tight" disabled={savedAnswer !== null}>
         <legend class="visually-hidden">{of.title}</legend>
         {of.options.map((option) => (
-          <label key={option.name} class="line lesson-option">
+          <label key={option.name} class="line check">
             <input
               type="radio"
               name={of.name}

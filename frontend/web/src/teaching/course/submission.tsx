@@ -30,7 +30,7 @@ export function SubmissionPanel({ of, exercise, onDone }: TaskProps) {
     <>
       {of.law && <OwnLaw savedLaw={exercise.law} html={of.html} />}
       <form
-        class="stack lesson-form"
+        class="stack form lesson-form"
         onSubmit={async (event) => {
           event.preventDefault();
           await submit(name);

@@ -13,12 +13,12 @@ import { SubmissionPanel } from "./submission";
 function Steps({ shownExercise, at }: { shownExercise: Exercise; at: Step }) {
   return (
     <nav aria-label={t("lesson.steps")}>
-      <ol class="row lesson-steps">
+      <ol class="row">
         {shownExercise.parts.map((part, index) => (
-          <li key={part.name} class={part.done ? "is-done" : ""}>
+          <li key={part.name}>
             <PlaceLink
               to={{ kind: "learn", exercise: shownExercise.name, step: part.name }}
-              class="button is-icon"
+              class={`button is-icon ${part.done && part !== at ? "good" : ""}`}
               title={`${t(`lesson.kinds.${part.kind}`)}: ${part.title}`}
               isHere={part.name === at.name}
             >
@@ -90,7 +90,7 @@ export function Lesson({ name }: { name: string }) {
   }, [name, here]);
   return (
     <section
-      class="surface stack lesson"
+      class="surface card stack"
       aria-label={t("lesson.label", { title: shownExercise?.title ?? name })}
     >
       <p class="spread hint">

@@ -61,7 +61,7 @@ function Cell({ student, exercise }: { student: Student; exercise: string }) {
 function Table() {
   return (
     <section class="surface card scroll" aria-label={t("grades.table")}>
-      <table class="table grades-table">
+      <table class="table">
         <caption class="visually-hidden">{t("grades.tableHint")}</caption>
         <thead>
           <tr>

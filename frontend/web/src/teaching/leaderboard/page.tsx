@@ -52,7 +52,7 @@ export function LeaderboardPage() {
   }, []);
   if (at.kind === "leaderboard" && at.entry !== "") {
     return (
-      <main class="page is-run" aria-label={t("leaderboard.title")}>
+      <main class="page column grow is-run" aria-label={t("leaderboard.title")}>
         <ErrorLine>{problem.value}</ErrorLine>
         <WorstRun />
       </main>

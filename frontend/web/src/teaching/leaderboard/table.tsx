@@ -39,9 +39,9 @@ function Row({ entry }: { entry: BoardEntry }) {
   return (
     <tr class={look.join(" ")}>
       <td class="number">{entry.rank}</td>
-      <th scope="row" class="is-name">
+      <th scope="row" class="is-name strong">
         {name}
-        <small>
+        <small class="block">
           {entry.is_installed ? (
             <span title={t("leaderboard.baselineHint")}>{t("leaderboard.baseline")}</span>
           ) : entry.author ? (
@@ -59,7 +59,7 @@ function Row({ entry }: { entry: BoardEntry }) {
           : formatNumber(standing.median_rms_deg)}
       </td>
       <td class="number">{standing.tick_us === null ? "–" : formatFixed(standing.tick_us, 1)}</td>
-      <td class="is-worst">
+      <td>
         <PlaceLink
           to={{ kind: "leaderboard", entry: entry.key }}
           title={worst.problem || t("leaderboard.seeHint", { name })}
@@ -85,9 +85,9 @@ function Row({ entry }: { entry: BoardEntry }) {
 const Missing = ({ law }: { law: string }) => (
   <tr class="is-baseline muted">
     <td class="number">–</td>
-    <th scope="row" class="is-name">
+    <th scope="row" class="is-name strong">
       {titleOf(law)}
-      <small>{t("leaderboard.baseline")}</small>
+      <small class="block">{t("leaderboard.baseline")}</small>
     </th>
     <td colSpan={COLUMNS.length - 2}>{t("leaderboard.notMeasured")}</td>
   </tr>

@@ -19,7 +19,7 @@ export function WorstRun() {
   );
   if (entry === undefined) {
     return (
-      <div class="bar run-head">
+      <div class="bar row">
         {back}
         {board.value !== null && <p>{t("leaderboard.unknown")}</p>}
       </div>
@@ -33,7 +33,7 @@ export function WorstRun() {
       : t("leaderboard.rms", { error: formatNumber(worst.rms_deg) });
   return (
     <>
-      <div class="bar run-head">
+      <div class="bar row">
         {back}
         <div class="grow">
           <h2>{t("leaderboard.worstOf", { name })}</h2>

@@ -4,12 +4,14 @@ import api from "../../../../../docs/openapi.json";
 import { resolveReferences } from "../../../requests";
 import { RefusedError, type Violation } from "../../../src/core/api/errors";
 import {
+  changeAt,
   changeKind,
   firstOf,
   kindsOf,
   quantityOfSchema,
   type Schema,
-} from "../../../src/core/forms/schema";
+  schemaOfKind,
+} from "../../../src/core/schema";
 
 const read = (name: keyof typeof api.components.schemas): Schema =>
   resolveReferences(api.components.schemas[name], api.components.schemas) as Schema;
@@ -33,6 +35,29 @@ it("a value of another kind keeps the common fields and begins with examples", (
   const { duration_s: _, ...shared } = pulse;
   const sine = { ...shared, kind: "sine", frequency_hz: [0.1, 20] };
   expect(changeKind(pulse, kinds.get("sine")?.schema as Schema)).toEqual(sine);
+});
+
+it("a kind that the server describes at run time is a form with its defaults", () => {
+  const row = { symbol: "", kind: "number", default: null, low: null } as const;
+  const angle = { ...row, name: "amplitude_rad", symbol: "A", meaning: "Amplitude", unit: "rad" };
+  const time = { ...row, name: "duration_s", meaning: "Duration", unit: "s", low: 0, high: 3600 };
+  const form = [
+    { parameter: { ...angle, high: 6.3 }, first: 0.2 },
+    { parameter: time, first: 5 },
+  ];
+  const schema = schemaOfKind("chirp", [{ kind: "chirp", form }]);
+  expect(firstOf(schema)).toEqual({ kind: "chirp", amplitude_rad: 0.2, duration_s: 5 });
+  expect(schema.properties?.amplitude_rad).toMatchObject({ title: "A", description: "Amplitude" });
+  const duration = quantityOfSchema(schema.properties?.duration_s ?? {});
+  expect(duration).toEqual({ label: "Duration", unit: "s", min: 0, max: 3600 });
+  expect(firstOf(schemaOfKind("gone", []))).toEqual({ kind: "gone" });
+});
+
+it("a value is changed at its path, and nothing else", () => {
+  const held = { kind: "sine", noise: { std_rad: 1 }, rates: [1, 2, 3] };
+  expect(changeAt(held, "rates[1]", 5)).toEqual({ ...held, rates: [1, 5, 3] });
+  expect(changeAt(held, "noise.std_rad", 2)).toEqual({ ...held, noise: { std_rad: 2 } });
+  expect(held.rates).toEqual([1, 2, 3]);
 });
 
 it("an angle has its bounds in degrees, a short time in milliseconds", () => {

@@ -23,7 +23,7 @@ const CAST = [
 describe("the plots of a joint of an arm", () => {
   it("have its lanes with the names of their controllers", () => {
     const channels = ["position_rad", "position_reference_rad"] as const;
-    const { groups, common } = composeOfJoint(channels, CAST, 2);
+    const { groups, common } = composeOfJoint(channels, CAST, 2, 2);
     const traces = groups.flatMap((group) => group.traces);
     expect(traces.map(({ lane, label }) => [lane, label])).toEqual([
       [2, "NDOBC"],
@@ -33,12 +33,12 @@ describe("the plots of a joint of an arm", () => {
   });
 
   it("have one lane without a comparison", () => {
-    const { groups } = composeOfJoint(["torque1_nm", "torque2_nm"], CAST.slice(0, 2), 2);
+    const { groups } = composeOfJoint(["torque1_nm", "torque2_nm"], CAST.slice(0, 2), 2, 2);
     expect(groups.flatMap(({ traces }) => traces.map(({ lane }) => lane))).toEqual([2, 2]);
   });
 
   it("have all lanes for a single joint", () => {
-    expect(lanesOfJoint(4, null)).toEqual([1, 2, 3, 4]);
-    expect(lanesOfJoint(4, 1)).toEqual([1, 3]);
+    expect(lanesOfJoint(4, null, 1)).toEqual([1, 2, 3, 4]);
+    expect(lanesOfJoint(4, 1, 2)).toEqual([1, 3]);
   });
 });

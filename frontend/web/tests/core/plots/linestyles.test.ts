@@ -84,7 +84,7 @@ describe("a law has one line style", () => {
   });
 
   it("in a study, at any position", async () => {
-    const { study } = await import("../../../src/evaluation/studies/studies");
+    const { study } = await import("../../../src/evaluation/studies/selection");
     const { lawLineStyles } = await import("../../../src/evaluation/studies/drawnrows");
     study.value = { laws: ["pd", "ndobc"] } as typeof study.value;
     expect(lawLineStyles.value).toEqual([lineStyleOf(3), lineStyleOf(0)]);

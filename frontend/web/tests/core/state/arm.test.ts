@@ -18,9 +18,12 @@ const joint = (law: string, sigma: number) => ({
   comparisons: [{ law: "fl" }],
 });
 const STATE = {
-  configuration: { ...joint("ndobc", 80), arm: { joint2: { ...joint("pd", 80), arm: null } } },
+  configuration: {
+    ...joint("ndobc", 80),
+    arm: { other_joints: [{ ...joint("pd", 80), arm: null }] },
+  },
   actuator: { name: "svsa" },
-  actuator2: { name: "qbmove" },
+  other_actuators: [{ name: "qbmove" }],
   bench: null,
   loads: [],
   lanes: ["Joint 1 NDOBC", "Joint 2 PD", "Joint 1 FL", "Joint 2 FL"].map((name, index) =>
@@ -29,7 +32,7 @@ const STATE = {
 } as unknown as SessionState;
 
 afterEach(() => {
-  jointChoice.value = "both";
+  jointChoice.value = "all";
   session.value = null;
 });
 
@@ -69,5 +72,10 @@ it("adds its mass at the tip", () => {
 });
 
 it("the name of an arm includes both joints if their controllers differ", () => {
-  expect(nameArms(STATE.lanes.map(({ name }) => name))).toEqual(["NDOBC, PD", "FL"]);
+  expect(
+    nameArms(
+      STATE.lanes.map(({ name }) => name),
+      2,
+    ),
+  ).toEqual(["NDOBC, PD", "FL"]);
 });

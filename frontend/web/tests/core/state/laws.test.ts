@@ -1,5 +1,6 @@
 import { beforeEach, expect, it, vi } from "vitest";
 import type { LawRow } from "../../../src/core/api/types";
+import { quantityOfSchema } from "../../../src/core/schema";
 
 const law = (name: string, changes: Partial<LawRow> = {}): LawRow => ({
   ...{ name, title: name.toUpperCase(), line_style: 0, summary: "", equation: "u=0", source: "" },
@@ -29,19 +30,30 @@ it("the default comparison law is the first other usable one", async () => {
   expect([titleOf("b"), titleOf("gone")]).toEqual(["B", "gone"]);
 });
 
-it("a parameter has a slider if it has both bounds", async () => {
-  const { changedAt, rangeOf } = await import("../../../src/lab/panels/law");
-  const { hasLongMeaning: isWordy } = await import("../../../src/core/state/laws");
-  const row = { ...RATE, default: 2 };
-  expect(rangeOf({ ...row, low: 1, high: 150 })).toEqual({
-    range: { min: 1, max: 150, logarithmic: true },
-  });
-  expect(rangeOf({ ...row, low: 0, high: 3 }).range?.logarithmic).toBe(false);
-  expect(rangeOf({ ...row, low: null, high: 3 })).toEqual({});
-  expect([isWordy({ ...row, low: 1, high: 2 })]).toEqual([false]);
-  expect(isWordy({ ...row, meaning: "Rate of the link's own motion", low: 1, high: 2 })).toBe(true);
-  expect(changedAt(2, null, 3)).toBe(3);
-  expect(changedAt([1, 2, 3], 1, 5)).toEqual([1, 5, 3]);
+it("a number of a law is in SI, with a slider if it has both bounds", async () => {
+  const { schemaOfLaw } = await import("../../../src/lab/panels/law");
+  const row = { ...RATE, default: 2, low: 0, high: 3 };
+  const { properties = {} } = schemaOfLaw(
+    law("lqi", {
+      parameters: [
+        { ...row, low: 1, high: 150 },
+        { ...row, name: "angle", unit: "rad", low: null },
+        { ...row, name: "gains", kind: "numbers", meaning: "Gains of the link", default: [1, 2] },
+        { ...row, name: "long", meaning: "Rate of the link's own motion" },
+        { ...row, name: "is_on", kind: "flag", default: true },
+      ],
+    }),
+  );
+  expect(Object.keys(properties)).toEqual(["rate", "angle", "gains", "long"]);
+  expect(properties.rate).toMatchObject({ title: "Rate", minimum: 1, maximum: 150 });
+  expect(properties.rate?.slider).toEqual({ min: 1, max: 150, logarithmic: true });
+  expect([properties.rate?.about, properties.angle?.slider]).toEqual([undefined, undefined]);
+  expect(quantityOfSchema(properties.angle ?? {})).toMatchObject({ unit: "rad", max: 3 });
+  const items = properties.gains?.prefixItems?.map(({ title }) => title);
+  expect(items).toEqual(["Gains of the link 1", "Gains of the link 2"]);
+  const about = "Rate of the link's own motion";
+  expect(properties.long).toMatchObject({ symbol: "ω", title: about, about });
+  expect(properties.long?.slider?.logarithmic).toBe(false);
 });
 
 it("Enter selects the law with that exact name, or else the first match", async () => {
@@ -56,36 +68,6 @@ it("Enter selects the law with that exact name, or else the first match", async 
   expect([take("observer"), take(" fl"), take("refl"), take("defl")]).toEqual([
     ...["ndobc", "fl", undefined, "spared"],
   ]);
-});
-
-it("a rejected parameter is named as its field, in a lane too if all laws name it the same", async () => {
-  const { laws } = await import("../../../src/core/state/laws");
-  const { explainViolation } = await import("../../../src/core/state/refusal");
-  const message = (name: string) =>
-    explainViolation({
-      ...{ name, value: 5000, unit: "rad/s", bound: "at most 100 rad/s", limits: { le: 100 } },
-      ...{ finding: "", message: "as the server says" },
-    });
-  const out = (name: string) =>
-    `${name}: 5000 rad/s is out of range (at most 100 rad/s). The value is unchanged.`;
-  const rate = { ...RATE, default: 2, low: 1, high: 100 };
-  const wordy = {
-    ...rate,
-    name: "velocity_rad_per_s",
-    symbol: "e_v",
-    meaning: "Error of the velocity",
-  };
-  const clash = { ...rate, name: "pole", symbol: "", meaning: "Pole of the link" };
-  laws.value = [
-    law("lqi", { parameters: [rate, wordy, clash] }),
-    law("pd", { parameters: [rate, { ...clash, meaning: "Pole of the motor" }] }),
-  ];
-  expect(message("lqi.velocity_rad_per_s")).toBe(out("e_v"));
-  expect(message("comparisons[0].parameters.velocity_rad_per_s")).toBe(out("e_v"));
-  expect(message("parameters.rate")).toBe(out("Rate"));
-  expect(message("pd.rate[1]")).toBe(out("Rate 2"));
-  expect(message("parameters.pole")).toBe("as the server says");
-  expect(message("lqi.gone")).toBe("as the server says");
 });
 
 it("an active law is listed with its own equation, and those of the paper once", async () => {

@@ -1,10 +1,10 @@
 import "../../browserless";
 import { describe, expect, it } from "vitest";
-import type { Violation } from "../../../src/core/api/errors";
+import { RefusedError, type Violation } from "../../../src/core/api/errors";
 import type { Kinds } from "../../../src/core/api/types";
-import { QUANTITIES, quantityOf } from "../../../src/core/quantities";
+import { FIELDS, quantityOf } from "../../../src/core/quantities";
 import { effectQuantityOf, kinds } from "../../../src/core/state/kinds";
-import { explainViolation } from "../../../src/core/state/refusal";
+import { explainRefusal, explainViolation } from "../../../src/core/state/refusal";
 
 const violation = (change: Partial<Violation>): Violation => ({
   name: "frequency_hz",
@@ -92,15 +92,27 @@ describe("a rejection on the page", () => {
     );
   });
 
+  it("is named as the field that was edited, by the end of its path", () => {
+    const own = { label: "ω 2", unit: "rad/s" };
+    const message = (name: string) => {
+      const excess = violation({ name, value: 5000, limits: { le: 100 } });
+      return explainRefusal(new RefusedError(422, "as the server says", [excess]), "rate[1]", own);
+    };
+    const named = "ω 2: 5000 rad/s is out of range (at most 100 rad/s). The value is unchanged.";
+    expect(message("lqi.rate[1]")).toBe(named);
+    expect(message("comparisons[0].parameters.rate[1]")).toBe(named);
+    expect(message("lqi.other_rate[1]")).toBe("as the server says");
+  });
+
   it("is the text of the server if the page has no name for the field", () => {
     expect(explainViolation(violation({ name: "comparisons[0].law" }))).toBe("as the server says");
     expect(quantityOf("toString")).toBeNull();
   });
 
   it("has a display name for every field", () => {
-    for (const [name, { label }] of Object.entries(QUANTITIES)) {
-      expect(label, name).not.toContain("_");
-      expect(label.length, name).toBeGreaterThan(2);
+    for (const [name, { title = "" }] of Object.entries(FIELDS)) {
+      expect(title, name).not.toContain("_");
+      expect(title.length, name).toBeGreaterThan(2);
     }
   });
 });

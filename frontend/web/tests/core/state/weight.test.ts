@@ -6,6 +6,7 @@ import {
   chosenForm,
   nextWeight,
   nextWeightForm,
+  scheduledWeights,
 } from "../../../src/core/state/plant";
 
 const real = { emulated: false } as BenchState;
@@ -29,4 +30,16 @@ it("adds the default load of another actuator, and recognizes it", () => {
   const known = state as unknown as SessionState;
   expect(nextWeight(known)).toEqual({ kind: "constant", torque_nm: [0.09, 0, 0] });
   expect(activeWeights(known).map(({ id }) => id)).toEqual([1]);
+});
+
+it("brings the scheduled load forward, and no other one", () => {
+  const paper = { kind: "paper" };
+  const rows = [
+    { id: 0, active: false, start_s: 5, load: paper },
+    { id: 1, active: false, start_s: 1, load: paper },
+    { id: 2, active: true, start_s: 1, load: paper },
+    { id: 3, active: false, start_s: 5, load: { kind: "sine" } },
+  ];
+  const known = { ...stateOf(null), time_s: 2, loads: rows } as unknown as SessionState;
+  expect(scheduledWeights(known).map(({ id }) => id)).toEqual([0]);
 });

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { positionOf, STEPS, valueAt } from "../../../src/core/widgets/scale";
+import { positionOf, STEPS, valueAt } from "../../../src/core/scale";
 import { bestOf } from "../../../src/core/widgets/tables";
 
 describe("slider scale", () => {

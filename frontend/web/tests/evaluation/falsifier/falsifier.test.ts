@@ -3,7 +3,7 @@ import { beforeEach, describe, expect, test } from "vitest";
 import api from "../../../../../docs/openapi.json";
 import { resolveReferences } from "../../../requests";
 import type { Adversary, LawTrace, Scenario, Search } from "../../../src/core/api/falsifications";
-import type { Schema } from "../../../src/core/forms/schema";
+import type { Schema } from "../../../src/core/schema";
 import {
   describeTerms,
   readModelError,
@@ -15,7 +15,7 @@ const { rankLaws } = await import("../../../src/evaluation/falsifier/laws");
 const {
   baselinesOf,
   selection: chosen,
-  isExample,
+  savedScenario,
   savedScenarios: kept,
   laws,
   scenario,
@@ -134,12 +134,12 @@ describe("the displayed search or scenario", () => {
     const one = { title: "An impulse", found: null };
     searches.value = [];
     kept.value = [{ name: "impulse", title: "An impulse", is_example: true, scenario: one }];
-    expect([scenario.value, isExample.value]).toEqual([one, true]);
+    expect([scenario.value, savedScenario.value?.is_example]).toEqual([one, true]);
     searches.value = [{ id: "3f2a" }, { id: "0b1c" }] as unknown as Search[];
     expect(chosen.value).toMatchObject({ search: "3f2a", scenario: "" });
-    expect(isExample.value).toBe(false);
+    expect(savedScenario.value).toBeUndefined();
     place.value = readPlace("?falsifier=all&scenario=impulse");
-    expect(isExample.value).toBe(true);
+    expect(savedScenario.value?.is_example).toBe(true);
   });
 });
 

@@ -16,7 +16,8 @@ async function load() {
     if (method === "DELETE") return new Response(null, { status: 204 });
     return new Response(JSON.stringify({ built_in: [], saved: [], metrics: [] }));
   });
-  return import("../../../src/evaluation/studies/studies");
+  const selection = await import("../../../src/evaluation/studies/selection");
+  return { ...selection, ...(await import("../../../src/evaluation/studies/studies")) };
 }
 
 beforeEach(() => {

@@ -140,7 +140,7 @@ const MOTION = { kind: "constant", value_rad: 0.1 };
 function armOf(second: object, parts: object = {}, loads: Row[] = []): SessionState {
   const { configuration: joint2 } = stateOf(second);
   return stateOf(
-    { arm: { feedforward: false, adaptation: null, tip: null, joint2, ...parts } },
+    { arm: { feedforward: false, adaptation: null, tip: null, other_joints: [joint2], ...parts } },
     loads,
   );
 }

@@ -1,6 +1,7 @@
 import { describe, expect, it } from "vitest";
 import type { Configuration } from "../../../src/core/api/types";
-import { coursePath, firstSteps, readLevels, writeLevels } from "../../../src/lab/panels/shapes";
+import { firstOf } from "../../../src/core/schema";
+import { coursePath, listSchemas, readLevels, writeLevels } from "../../../src/lab/panels/shapes";
 
 describe("steps", () => {
   it("between two levels are a list", () => {
@@ -37,11 +38,11 @@ describe("steps", () => {
 describe("the default steps", () => {
   const limits = { stiffness_min_nm_per_rad: 0.2, stiffness_max_nm_per_rad: 15 };
   const begin = (stiffness: object) =>
-    firstSteps("stiffness", { stiffness, limits } as unknown as Configuration);
+    firstOf(listSchemas("stiffness", { stiffness, limits } as unknown as Configuration).steps);
 
   it("start at the current stiffness and stay in the range of the actuator", () => {
     const at = (nm: number) => begin({ kind: "constant", stiffness_nm_per_rad: nm });
-    expect(at(4)).toMatchObject({ low: 4, high: 8 });
+    expect(at(4)).toMatchObject({ low: 4, high: 8, levels: "0, 4\n2, 8\n4, 4\n6, 8\n8, 4" });
     expect(at(9)).toMatchObject({ low: 9, high: 15 });
     expect(begin({ kind: "sine" })).toMatchObject({ low: 1.73, high: 3.46 });
   });

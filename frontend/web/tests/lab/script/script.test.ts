@@ -182,9 +182,9 @@ describe("an experiment as a script", () => {
   });
 
   it("sets each joint of an arm, and the arm", () => {
-    const links = { length1_m: 0.3 };
+    const links = { chain: [{ length_m: 0.3 }] };
     const arm = { links, model: links, feedforward: false, adaptation: null, tip: null };
-    const plain = { ...DEFAULTS, arm: { ...arm, joint2: DEFAULTS } };
+    const plain = { ...DEFAULTS, arm: { ...arm, other_joints: [DEFAULTS] } };
     const joint2 = {
       ...DEFAULTS,
       law: "fl",
@@ -195,7 +195,7 @@ describe("an experiment as a script", () => {
       ...plain,
       comparisons: [{ law: "fl", gains: null }],
       loads: [{ kind: "tip_mass", mass_kg: 0.1 }],
-      arm: { ...arm, feedforward: true, adaptation: { mass_max_kg: 1 }, joint2 },
+      arm: { ...arm, feedforward: true, adaptation: { mass_max_kg: 1 }, other_joints: [joint2] },
     };
     const repeated = given(100, "position", { kind: "sine" });
     repeated.command = { ...repeated.command, joint: 2 };

@@ -1,9 +1,10 @@
 /** Numbers of the server while the user changes them. */
 import { useRef, useState } from "preact/hooks";
-import type { SessionRequest } from "../../core/api/client";
-import type { SessionState } from "../../core/api/types";
-import { perform, problem } from "../../core/state/actions";
-import { session } from "../../core/state/session";
+import type { SessionRequest } from "../api/client";
+import { RefusedError } from "../api/errors";
+import type { SessionState } from "../api/types";
+import { perform, problem } from "../state/actions";
+import { session } from "../state/session";
 
 export interface ServerNumber {
   /** Name of the control, unique on the page. */
@@ -37,7 +38,7 @@ export function useServerNumber({ name, value, send }: ServerNumber) {
       stateAtStart.current = null;
     }
     sending.current = null;
-    return isTaken || problem.peek()?.isRefused !== true;
+    return isTaken || !(problem.peek()?.error instanceof RefusedError);
   };
   const commit = (next: number): Promise<boolean> => {
     waiting.current = next;
