@@ -15,6 +15,7 @@ from svsa.actuators.parameters import ActuatorParameters, Limits
 from svsa.control.gains import Gains
 from svsa.control.law_names import AnyLaw
 from svsa.control.observers.disturbance import ObserverBandwidth
+from svsa.control.observers.spring import SpringEstimation
 from svsa.errors import FaultError, ParameterError, StateError, SvsaError
 from svsa.evaluation.reproduction import reproduce
 from svsa.inputs.extras import MissingExtraError
@@ -161,6 +162,7 @@ __all__ = [
     "SineLoad",
     "SinePosition",
     "SineStiffness",
+    "SpringEstimation",
     "StateError",
     "Stepper",
     "StepsPosition",

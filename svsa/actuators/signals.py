@@ -81,7 +81,8 @@ class Sample(NamedTuple):
 
     On a bench the disturbances w are unknown (NaN), and positions are measured; the residuals
     compare with its simulated twin, and are 0 in all other lanes. The payload is 0 without an
-    arm that estimates it.
+    arm that estimates it. Without the spring estimator its channels are 0; after it has found
+    another shape of the spring, all of them but the misfit are NaN.
     """
 
     time_s: Annotated[float, "s", "Time t"]
@@ -113,6 +114,13 @@ class Sample(NamedTuple):
     position_residual_rad: Annotated[float, "rad", "Position q, bench − twin"]
     stiffness_residual_nm_per_rad: Annotated[float, "N·m/rad", "Stiffness σ, bench − twin"]
     payload_estimate_kg: Annotated[float, "kg", "Payload estimate m̂ of the arm"]
+    stiffness_estimate_nm_per_rad: Annotated[float, "N·m/rad", "Stiffness estimate σ̂"]
+    stiffness_deviation_nm_per_rad: Annotated[
+        float, "N·m/rad", "Standard deviation of the stiffness estimate"
+    ]
+    spring_ratio: Annotated[float, "1", "Spring estimate K̂/K_n"]
+    spring_ratio_deviation: Annotated[float, "1", "Standard deviation of the spring estimate"]
+    spring_misfit: Annotated[float, "1", "Misfit of the spring estimate"]
 
 
 @dataclass(frozen=True)
@@ -161,3 +169,9 @@ PLOTTED = (
     "estimate_motor2_nm",
 )
 """Names of the channels that a stream, a replay and an extract of a run contain by default."""
+ESTIMATED = (
+    "stiffness_estimate_nm_per_rad",
+    "stiffness_deviation_nm_per_rad",
+    "spring_misfit",
+)
+"""Names of those that a replay contains, too, if the spring estimator was on."""

@@ -20,7 +20,9 @@ from svsa.runs.result.result import Result
 from svsa.runs.result.simulate import MAX_TICKS
 
 SHARED = "lab"
-_SET_ALONE = ("position", "stiffness", "gains", "observer", "actuator", "nominal", "effects")
+_SET_ALONE = (
+    "position", "stiffness", "gains", "observer", "spring", "actuator", "nominal", "effects",
+)  # fmt: skip
 
 
 def connect(

@@ -18,6 +18,7 @@ from svsa.client.stream import BlockStream
 from svsa.control.gains import Gains
 from svsa.control.law_names import AnyLaw
 from svsa.control.observers.disturbance import ObserverBandwidth
+from svsa.control.observers.spring import SpringEstimation
 from svsa.inputs.nearest import suggest
 from svsa.runs.definition.design import Lane
 from svsa.runs.definition.shorthand import (
@@ -27,6 +28,7 @@ from svsa.runs.definition.shorthand import (
     GivenLanes,
     GivenObserver,
     GivenPosition,
+    GivenSpring,
     GivenStiffness,
     LawChoice,
     read_lane,
@@ -221,6 +223,15 @@ class RemoteSession(RunningConnection):
     @observer.setter
     def observer(self, observer: GivenObserver) -> None:
         self._put("observer", observer)
+
+    @property
+    def spring(self) -> SpringEstimation:
+        """The spring estimator."""
+        return SpringEstimation.model_validate(self._read("spring"))
+
+    @spring.setter
+    def spring(self, spring: GivenSpring) -> None:
+        self._put("spring", spring)
 
     @property
     def effects(self) -> Effects:

@@ -186,7 +186,7 @@ def test_law_on_a_bench_receives_the_measurement_also_after_missed_ticks():
     carried = pack(BenchLoopState())
     for missed in (0, 7, 0):
         if missed:
-            pass_ticks(constants, run.inputs, carried, 0, missed)
+            pass_ticks(constants, run.inputs, carried, run.lanes[0].spring, 0, missed)
         y = Measurement(0.01 * (missed + 1), -0.02, 0.003, 0.0, 0.0, 0.0)
         carried["measured"].view(float).reshape(-1)[:] = y
         follow_and_decide(constants, run.inputs, carried, 0)
@@ -207,13 +207,15 @@ def follow_figure(law, missed):
     for tick in range(1600):
         if 1250 - missed <= tick < 1250:
             if tick == 1249:
-                pass_ticks(constants, run.inputs, carried, 1250 - missed, missed)
+                pass_ticks(
+                    constants, run.inputs, carried, run.lanes[0].spring, 1250 - missed, missed
+                )
         else:
             y = x.theta1, x.theta2, x.q - x.theta1, x.dq, x.dtheta1, x.dtheta2
             carried["measured"].view(float).reshape(-1)[:] = y
             follow_and_decide(constants, run.inputs, carried, tick)
             torque = Torque(*carried["limited"][0].tolist())
-            publish_and_predict(constants, carried, *torque, tick, row)
+            publish_and_predict(constants, carried, run.lanes[0].spring, *torque, tick, row)
             found[tick] = (*torque, *carried["believed"][0].tolist())
         x = predict_state(run.blocks[0].nominal, x, LINK_LOAD, torque, run.period_s)
     return found

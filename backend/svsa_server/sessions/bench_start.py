@@ -66,12 +66,13 @@ def check_at_rest(session: BenchSession) -> None:
 
 
 def set_up_bench(session: BenchSession, asked: Configuration) -> None:
-    """Set law, references, loads, gains, parameters and observer, for the next start."""
+    """Set law, references, loads and the settings of law and observers, for the next start."""
     session.load(asked)
     for command in (
         Set("gains", asked.gains),
         Set("parameters", asked.parameters),
         Set("observer", asked.observer),
+        Set("spring", asked.spring),
     ):
         if not is_held(session.run.configuration, command):
             session.change(command)

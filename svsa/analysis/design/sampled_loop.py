@@ -12,6 +12,8 @@ from svsa.analysis.design.differences import differentiate, differentiate_both
 from svsa.control.call import build_call
 from svsa.control.installed import get_law
 from svsa.control.observers.disturbance import ObserverBandwidth
+from svsa.control.observers.spring import Spring
+from svsa.numerics.packed import pack
 from svsa.runs.definition.configuration import Configuration
 from svsa.runs.execution.run import Run
 from svsa.simulation.loop.lane import Inputs, LaneState
@@ -167,6 +169,7 @@ def _unpack(z: np.ndarray) -> LaneState:
         Torque(*values[APPLIED]),
         tuple(values[19 : 19 + queue]),
         z[19 + queue :].copy(),
+        pack(Spring()),
     )
 
 

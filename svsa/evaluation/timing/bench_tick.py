@@ -57,7 +57,7 @@ class BenchTicks:
         self._measured = self._carried["measured"].view(float).reshape(-1)
         self.limited = self._carried["limited"].view(float).reshape(-1)
         self._y, self._u = samples[:, MEASURED].copy(), samples[:, TORQUES].tolist()
-        self._row = np.empty(len(CHANNELS))
+        self._row, self._spring = np.empty(len(CHANNELS)), run.lanes[0].spring
 
     def run_tick(self, tick: int) -> float:
         """Run one tick; return its duration, s."""
@@ -65,7 +65,7 @@ class BenchTicks:
         u1, u2 = self._u[tick]
         begin = time.perf_counter_ns()
         follow_and_decide(self._constants, self._inputs, self._carried, tick)
-        publish_and_predict(self._constants, self._carried, u1, u2, tick, self._row)
+        publish_and_predict(self._constants, self._carried, self._spring, u1, u2, tick, self._row)
         return 1e-9 * (time.perf_counter_ns() - begin)
 
 
@@ -107,6 +107,6 @@ def measure_bench_tick(run: Run, repeats: int) -> float:
     def work() -> None:
         for tick in range(TICKS):
             follow_and_decide(constants, run.inputs, carried, tick)
-            publish_and_predict(constants, carried, 0.0, 0.0, tick, row)
+            publish_and_predict(constants, carried, run.lanes[0].spring, 0.0, 0.0, tick, row)
 
     return measure_in_turns({"tick": work}, repeats)["tick"] / TICKS

@@ -99,6 +99,7 @@ def build_bench_configuration(bench: BenchFile, request: Configuration) -> Confi
         law=request.law,
         comparisons=(Lane(law=request.law),),
         effects=effects,
+        spring=request.spring,
         position=request.position,
         stiffness=request.stiffness,
         loads=request.loads,

@@ -14,6 +14,7 @@ import numpy as np
 from svsa.actuators.signals import CHANNELS, Disturbance, Measurement, State, Torque
 from svsa.control.call import BoundLaw, build_call
 from svsa.control.installed import get_law
+from svsa.control.observers.spring import Spring
 from svsa.errors import StateError
 from svsa.hardware.bench.reading import Reading
 from svsa.hardware.safety.machine import BenchStatus
@@ -129,7 +130,9 @@ class BenchLoop:
         """Discard the state: it restarts from the next measurement."""
         self._is_known = False
         self._carried[:] = _NOTHING
-        self.run.lanes[0].memory[:] = get_law(self.run.configuration.law).start_memory()
+        lane = self.run.lanes[0]
+        lane.memory[:] = get_law(self.run.configuration.law).start_memory()
+        lane.spring[:] = pack(Spring())
 
     def load(self, configuration: Configuration) -> None:
         """Use this configuration from the next start on.
@@ -201,7 +204,7 @@ class BenchLoop:
     def warm_up(self) -> None:
         """Load every compiled function before real time matters."""
         self._decide(Measurement(0.0, 0.0, 0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
-        pass_ticks(self._constants, self.run.inputs, self._carried, self.run.tick, 1)
+        self._pass_ticks(1)
         self._publish(NO_TORQUE, self._scratch)
         self._forget()
 
@@ -219,7 +222,7 @@ class BenchLoop:
         plant = self.plant
         begins = not self.run.tick and plant.status in MOVING
         if missed and self._is_known and not begins:
-            pass_ticks(self._constants, self.run.inputs, self._carried, self.run.tick, missed)
+            self._pass_ticks(missed)
         reading = self.reading = plant.read(now, State(*self._expected.tolist()))
         measurement = reading.measurement
         if measurement is None:
@@ -263,5 +266,12 @@ class BenchLoop:
         self._connected = blocks, law, memory  # owners of the memory
         self._constants = pack(BenchConstants(blocks, self._actuation, build_call(law, memory)))
 
+    def _pass_ticks(self, missed: int) -> None:
+        run = self.run
+        spring = run.lanes[0].spring
+        pass_ticks(self._constants, run.inputs, self._carried, spring, run.tick, missed)
+
     def _publish(self, sent: Torque, row: np.ndarray) -> None:
-        publish_and_predict(self._constants, self._carried, sent.u1, sent.u2, self.run.tick, row)
+        run = self.run
+        spring = run.lanes[0].spring
+        publish_and_predict(self._constants, self._carried, spring, sent.u1, sent.u2, run.tick, row)

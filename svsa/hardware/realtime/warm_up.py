@@ -110,6 +110,7 @@ def list_changes(configuration: Configuration, laws: list[str]) -> list[tuple[st
         ("gains", c["gains"]),
         ("parameters", {law: {} for law in own}),
         ("observer", c["observer"]),
+        ("spring", c["spring"]),
         ("actuator", c["actuator"]),
         ("nominal", c["nominal"]),
         ("effects", EVERY.model_dump(mode="json")),

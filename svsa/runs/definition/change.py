@@ -9,6 +9,7 @@ from svsa.actuators.installed import InstalledActuator
 from svsa.control.gains import Gains
 from svsa.control.installed import LawName, ParametersByLaw
 from svsa.control.observers.disturbance import ObserverBandwidth
+from svsa.control.observers.spring import SpringEstimation
 from svsa.errors import ParameterError, Violation
 from svsa.inputs.checked import Checked, Flag, Number, Whole, check_number, quantity
 from svsa.runs.definition.command import OF_ARM, Command, build_command
@@ -34,6 +35,7 @@ class Change(Checked):
         "", "Parameters of laws that have their own, by the law's name", default=None
     )
     observer: ObserverBandwidth | None = None
+    spring: SpringEstimation | None = None
     position: PositionReference | None = None
     stiffness: StiffnessReference | None = None
     actuator: InstalledActuator | None = None

@@ -15,6 +15,7 @@ from svsa.control.installed import (
     has_own_parameters,
     is_usable,
 )
+from svsa.control.observers.spring import SpringEstimation
 from svsa.control.parameters import LawParameters
 from svsa.errors import ParameterError, Violation
 from svsa.inputs.checked import Checked, Flag, Whole, quantity
@@ -65,6 +66,9 @@ class Configuration(Design):
         "", "Non-ideal effects of the simulation", symbol="Effects", default=IDEAL
     )
     seed: Whole = quantity("", "Seed of the sensor noise", ge=0, le=2**63 - 1, default=0)
+    spring: SpringEstimation = quantity(
+        "", "Spring estimator, which measures the stiffness", default=SpringEstimation(is_on=False)
+    )
     position: PositionReference
     stiffness: StiffnessReference
     loads: tuple[Load, ...] = quantity(

@@ -15,6 +15,7 @@ from svsa.actuators.reach import find_only_stiffness
 from svsa.control.gains import Gains
 from svsa.control.law_names import AnyLaw, KnownLaw
 from svsa.control.observers.disturbance import ObserverBandwidth
+from svsa.control.observers.spring import SpringEstimation
 from svsa.errors import ParameterError, Violation
 from svsa.inputs.checked import Checked
 from svsa.inputs.explanation import explain
@@ -40,6 +41,8 @@ GivenActuator: TypeAlias = MechanismParameters | Part
 GivenGains: TypeAlias = Gains | Part
 GivenObserver: TypeAlias = ObserverBandwidth | Part | float
 """Bandwidths, or one for all three channels, rad/s."""
+GivenSpring: TypeAlias = SpringEstimation | Part | bool
+"""The spring estimator, its changed fields, or whether it is on."""
 GivenLanes: TypeAlias = Lane | LawChoice | Sequence[Lane | LawChoice]
 
 
@@ -56,6 +59,7 @@ class Settings(TypedDict, total=False):
     nominal: GivenActuator
     gains: GivenGains
     observer: GivenObserver
+    spring: GivenSpring
     limits: Limits | Part
     sampling: Sampling | Part
 
@@ -93,6 +97,11 @@ _FORMS = {
     "observer": _Form(
         ObserverBandwidth,
         "svsa.ObserverBandwidth(bandwidth_rad_per_s=(β2, β4, β6)), or one bandwidth in rad/s",
+        is_partial=True,
+    ),
+    "spring": _Form(
+        SpringEstimation,
+        "True, False, svsa.SpringEstimation(…), or a dict of the fields that are different",
         is_partial=True,
     ),
     "limits": _Form(
@@ -216,6 +225,8 @@ def _spell_out(name: str, value: Any) -> Any:
                 return ConstantStiffness(stiffness_nm_per_rad=value)
             case "observer" if is_number:
                 return ObserverBandwidth(bandwidth_rad_per_s=(value, value, value))
+            case "spring" if isinstance(value, bool):
+                return {"is_on": value}
             case "effects" if isinstance(value, str):
                 return next((preset for key, preset in PRESETS.items() if key == value), value)
     except ParameterError as error:

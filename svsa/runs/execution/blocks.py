@@ -64,6 +64,7 @@ def build_blocks(configuration: Configuration, lane: Lane, mu0: float, steps: in
         domain=build_domain(c.actuator, c.limits),
         period=c.sampling.period_s,
         steps=steps,
+        spring=c.spring.build(c.sampling.period_s),
     )
 
 
@@ -103,7 +104,10 @@ def connect_lane(
     """
     c = configuration
     observer = lane.observer or c.observer
-    parts = c.actuator, c.nominal, observer, c.effects, c.limits, c.sampling, c.seed, mu0, steps
+    parts = (
+        c.actuator, c.nominal, observer, c.effects, c.limits, c.sampling, c.seed, mu0, steps,
+        c.spring,
+    )  # fmt: skip
     if before is not None and before.parts == parts:
         blocks = before.blocks
     else:

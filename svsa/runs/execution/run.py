@@ -10,7 +10,9 @@ from svsa.actuators.dynamics import build_actuator
 from svsa.actuators.elasticity import compute_coordinate, compute_stiffness_of
 from svsa.actuators.signals import State
 from svsa.control.installed import get_law
+from svsa.control.observers.spring import Spring
 from svsa.errors import Fault, ParameterError, StateError, Violation
+from svsa.numerics.packed import pack
 from svsa.runs.definition.command import (
     NO_ARM,
     ApplyLoad,
@@ -252,6 +254,8 @@ class Run:
                     _follow_law(self.lanes[begin], before.lanes[begin].law, lane.law)
                     for begin, lane in zip(begun, after.lanes, strict=True)
                 ]
+                if kind in ("nominal", "spring"):
+                    self.lanes = [lane._replace(spring=pack(Spring())) for lane in self.lanes]
                 self._rearrange(after, origins)
         self.configuration = after
 

@@ -33,6 +33,7 @@ _GROUPS = {
     "gains": "Controller",
     "parameters": "Controller",
     "observer": "Controller",
+    "spring": "Spring estimator",
     "effects": "Realism",
     "actuator": "Plant",
     "nominal": "Model of the controller",
@@ -268,6 +269,7 @@ _TITLES = {
     "gains": "Gains",
     "parameters": "Parameters of laws",
     "observer": "Observer",
+    "spring": "Spring estimator",
     "effects": "Realism",
     "actuator": "Plant",
     "nominal": "Model of the controller",
@@ -285,6 +287,7 @@ _FORMATTERS: dict[str, Callable[[Any], str]] = {
     ),
     "observer": lambda observer: ", ".join(f"{b:g}" for b in observer.bandwidth_rad_per_s),
     "effects": describe_effects,
+    "spring": _format_model,
     "actuator": _format_model,
     "nominal": _format_model,
 }

@@ -38,6 +38,11 @@ ChannelName = Literal[
     "position_residual_rad",
     "stiffness_residual_nm_per_rad",
     "payload_estimate_kg",
+    "stiffness_estimate_nm_per_rad",
+    "stiffness_deviation_nm_per_rad",
+    "spring_ratio",
+    "spring_ratio_deviation",
+    "spring_misfit",
 ]
 """The names of `svsa.actuators.signals.CHANNELS`: a typo is an error for a type checker."""
 
@@ -79,6 +84,11 @@ class Channels:
     position_residual_rad: np.ndarray
     stiffness_residual_nm_per_rad: np.ndarray
     payload_estimate_kg: np.ndarray
+    stiffness_estimate_nm_per_rad: np.ndarray
+    stiffness_deviation_nm_per_rad: np.ndarray
+    spring_ratio: np.ndarray
+    spring_ratio_deviation: np.ndarray
+    spring_misfit: np.ndarray
 
     if not TYPE_CHECKING:
 

@@ -128,7 +128,9 @@ def follow_joint(
 def shift_estimate(lane: LaneState, w: float) -> LaneState:
     """The lane with w (N·m) added to ŵ2."""
     e = Disturbance(lane.estimate.w2 + w, lane.estimate.w4, lane.estimate.w6)
-    return LaneState(lane.x, lane.known, e, lane.actual, lane.applied, lane.limited, lane.memory)
+    return LaneState(
+        lane.x, lane.known, e, lane.actual, lane.applied, lane.limited, lane.memory, lane.spring
+    )
 
 
 @compiled
@@ -144,7 +146,7 @@ def adapt_joint(blocks: Blocks, inertia: float) -> Blocks:
     nominal = replace_link_inertia(b.nominal, b.nominal.M + inertia)
     return Blocks(
         b.plant, nominal, b.shares, b.torque1_max, b.torque2_max, b.effects, b.decay, b.domain,
-        b.period, b.steps,
+        b.period, b.steps, b.spring,
     )  # fmt: skip
 
 
@@ -269,10 +271,11 @@ def advance_arm(
     as `svsa.simulation.loop.loop.advance`.
     """
     memories = each(copy_array, (take(arm.joints, "memory"),))
+    springs = each(copy_array, (take(arm.joints, "spring"),))
     nominals = each(copy_array, (take(laws, "nominal"),))
     own = each(borrow_copied_law, (laws, nominals))
     borrowed = ArmInputs(each(borrow_inputs, (inputs.joints,)), borrow(inputs.tip))
-    lanes = each(remember, (arm.joints, each(borrow, (memories,))))
+    lanes = each(remember, (arm.joints, each(borrow, (memories,)), each(borrow, (springs,))))
     F = each(compute_internal_torque, (take(blocks.joints, "nominal"), take(lanes, "known")))
     now = ArmState(lanes, arm.known, arm.payload)
     rows, done, codes = each(borrow, (samples,)), 0, full_like(F, int(INSIDE))
@@ -283,4 +286,5 @@ def advance_arm(
             each(write_payload, (row, mass))
         done += are_inside(codes)
     keep(nominals)
-    return ArmState(each(remember, (now.joints, memories)), now.known, now.payload), done, codes
+    reached = each(remember, (now.joints, memories, springs))
+    return ArmState(reached, now.known, now.payload), done, codes

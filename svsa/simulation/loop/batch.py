@@ -68,7 +68,7 @@ _GROUPS_AT_ONCE = 128
 
 
 class Start(NamedTuple):
-    """A `LaneState` without the law's memory."""
+    """A `LaneState` without the memories of the law and of the spring estimator."""
 
     x: State
     known: State
@@ -154,7 +154,7 @@ def pack_setups(
     """Return the layout of runs, and their numbers, shape (groups, rows, 8); `memory` is the
     initial memory of the law.
     """
-    start = Start(*build_lane_state(memory)[:-1])
+    start = Start(*build_lane_state(memory)[:-2])
     runs = [RunSetup(*parts, start) for parts in zip(blocks, constants, strict=True)]
     numbers = pack_all(runs).view(np.float64).reshape(len(runs), -1)
     return _lay_out(runs[0], "", iter(numbers.view(np.int64).T), count()), group(numbers)
@@ -291,7 +291,9 @@ def advance_groups(
         blocks, constants, start = read(rows[i])
         memory, given = view(memories[i]), pick_inputs(inputs, i)
         x, known, estimate = start.x, start.known, start.estimate
-        lane = LaneState(x, known, estimate, start.actual, start.applied, start.limited, memory)
+        # No samples are stored, and so no spring is estimated: the last field is not used.
+        limited = start.limited
+        lane = LaneState(x, known, estimate, start.actual, start.applied, limited, memory, memory)
         law = GroupLaw(blocks.nominal, constants, is_reported)
         code, ended = load(results[i], 0), load(results[i], 1)
         kept = TallyState(read_tally(results[i]), build_window(begin, end, blocks.period))

@@ -8,8 +8,10 @@ from svsa.actuators.domain import Domain
 from svsa.actuators.dynamics import Actuator, ExternalLoad
 from svsa.actuators.signals import Disturbance, Positions, Reference, State, Torque
 from svsa.control.call import BoundLaw
+from svsa.control.observers.spring import Spring, SpringConstants
 from svsa.numerics.borrowed import borrow
 from svsa.numerics.compilation import compiled
+from svsa.numerics.packed import pack
 from svsa.simulation.plant.effects import EffectConstants
 from svsa.simulation.plant.effects.delay_samples import MAX_DELAY_SAMPLES
 from svsa.simulation.plant.load_table import LoadTable
@@ -36,6 +38,7 @@ class Blocks(NamedTuple):
         domain: `Domain`.
         period: Control period T, s.
         steps: Runge–Kutta steps per period.
+        spring: `SpringConstants` of the spring estimator.
     """
 
     plant: Actuator
@@ -48,6 +51,7 @@ class Blocks(NamedTuple):
     domain: Domain
     period: float
     steps: int
+    spring: SpringConstants
 
 
 class Inputs(NamedTuple):
@@ -70,6 +74,7 @@ class LaneState(NamedTuple):
         limited: Limited torques of the last samples for the delay, newest first, as (u1, u2) pairs
             in sequence.
         memory: Memory of the law, see `Law.start_memory`.
+        spring: State of the spring estimator, one packed `Spring`.
     """
 
     x: State
@@ -79,6 +84,7 @@ class LaneState(NamedTuple):
     applied: Torque
     limited: tuple[float, ...]
     memory: np.ndarray
+    spring: np.ndarray
 
 
 class Action(NamedTuple):
@@ -106,7 +112,8 @@ def build_lane_state(memory: np.ndarray, x: State = AT_REST) -> LaneState:
     # The length is part of the type: with a queue as long as the delay, each delay would compile
     # the loop again.
     limited = (0.0,) * (2 * MAX_DELAY_SAMPLES + 2)
-    return LaneState(x, x, UNDISTURBED, NO_TORQUE, NO_TORQUE, limited, memory)
+    spring = pack(Spring())
+    return LaneState(x, x, UNDISTURBED, NO_TORQUE, NO_TORQUE, limited, memory, spring)
 
 
 @compiled
@@ -128,8 +135,8 @@ def borrow_law(law: BoundLaw) -> BoundLaw:
 
 
 @compiled
-def remember(lane: LaneState, memory: np.ndarray) -> LaneState:
-    """Return the lane with another memory of its law."""
+def remember(lane: LaneState, memory: np.ndarray, spring: np.ndarray) -> LaneState:
+    """Return the lane with other memories of its law and of the spring estimator."""
     return LaneState(
-        lane.x, lane.known, lane.estimate, lane.actual, lane.applied, lane.limited, memory
+        lane.x, lane.known, lane.estimate, lane.actual, lane.applied, lane.limited, memory, spring
     )

@@ -240,6 +240,7 @@ def hold(runs: bool, reached: LaneState, lane: LaneState) -> LaneState:
         choose(runs, reached.applied, lane.applied),
         choose(runs, reached.limited, lane.limited),
         lane.memory,
+        lane.spring,
     )
 
 
@@ -284,7 +285,10 @@ def follow(
     observed = correct_disturbance_estimate(
         nominal, blocks.shares, lane.estimate, lane.known, F, known, F_known, applied, period
     )
-    return LaneState(x, known, observed, actual, applied, action.limited, lane.memory), F_known
+    reached = LaneState(
+        x, known, observed, actual, applied, action.limited, lane.memory, lane.spring
+    )
+    return reached, F_known
 
 
 @compiled
@@ -307,12 +311,13 @@ def advance(
     """
     # The caller's lane must not change: replays and branches start from it again. Borrowed arrays
     # are not reference-counted; counting would take most of the time of a tick.
-    memory, rows = lane.memory.copy(), borrow(samples)
-    lane, law, inputs = remember(lane, borrow(memory)), borrow_law(law), borrow_inputs(inputs)
+    memory, spring, rows = lane.memory.copy(), lane.spring.copy(), borrow(samples)
+    lane = remember(lane, borrow(memory), borrow(spring))
+    law, inputs = borrow_law(law), borrow_inputs(inputs)
     F = compute_internal_torque(blocks.nominal, lane.known)
     # Not the constant itself: numba would compile `run_tick` for it, and again for the integer.
     done, code = 0, int(INSIDE)
     while done < rows.shape[0] and code == INSIDE:
         lane, F, code, _ = run_tick(blocks, law, inputs, lane, F, code, first + done, rows[done])
         done += code == INSIDE
-    return remember(lane, memory), done, code
+    return remember(lane, memory, spring), done, code

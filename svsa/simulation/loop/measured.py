@@ -22,11 +22,12 @@ from svsa.actuators.signals import (
     Torque,
 )
 from svsa.control.call import Call, read_estimate
+from svsa.control.observers.spring import NO_ESTIMATE
 from svsa.control.observers.state import predict_state
 from svsa.numerics.compilation import compiled
 from svsa.simulation.loop.lane import AT_REST, NO_REFERENCE, NO_TORQUE, UNDISTURBED, Blocks
 from svsa.simulation.loop.loop import decide, observe
-from svsa.simulation.loop.publish import write_sample
+from svsa.simulation.loop.publish import estimate_spring, write_sample
 from svsa.simulation.plant.effects.current_lag import compute_late_torque
 
 
@@ -72,6 +73,7 @@ class BenchLoopState(NamedTuple):
         ages_s: Ages of the readings of motor 1, motor 2 and deflection, s.
         reference: `Reference`.
         limited: Torque of the law within its limits, N·m.
+        applied: Mean torque of the motors during the last period, N·m.
         believed: The ŵ that the law uses, N·m.
     """
 
@@ -85,6 +87,7 @@ class BenchLoopState(NamedTuple):
     ages_s: tuple[float, float, float] = (0.0, 0.0, 0.0)
     reference: Reference = NO_REFERENCE
     limited: Torque = NO_TORQUE
+    applied: Torque = NO_TORQUE
     believed: Disturbance = UNDISTURBED
 
 
@@ -159,6 +162,7 @@ def follow_and_decide(
     store_disturbance(c.believed, read_estimate(k.call, w))
     store_torque(c.actual, actual)
     store_torque(c.limited, limited)
+    store_torque(c.applied, applied)
     p = c.reference
     p.q, p.dq, p.ddq, p.dddq, p.ddddq = r.q, r.dq, r.ddq, r.dddq, r.ddddq
     p.sigma, p.dsigma, p.ddsigma = r.sigma, r.dsigma, r.ddsigma
@@ -166,28 +170,44 @@ def follow_and_decide(
 
 @compiled
 def publish_and_predict(
-    constants: np.ndarray, carried: np.ndarray, u1: float, u2: float, tick: int, sample: np.ndarray
+    constants: np.ndarray,
+    carried: np.ndarray,
+    spring: np.ndarray,
+    u1: float,
+    u2: float,
+    tick: int,
+    sample: np.ndarray,
 ) -> None:
-    """Store the sent torque (u1, u2, N·m), `publish_measured` into `sample`, then `predict`."""
+    """Store the sent torque (u1, u2, N·m), `publish_measured` into `sample`, then `predict`.
+
+    `spring`, a packed `Spring`, is updated.
+    """
     k, c = constants[0], carried[0]
     # Stored before it is replaced: it acts until the new torque arrives (`latency`).
     store_torque(c.before, c.sent)
     store_torque(c.sent, Torque(u1, u2))
-    publish_measured(k.blocks, c, tick, sample)
+    publish_measured(k.blocks, c, spring, tick, sample)
     store_state(c.expected, predict(k, c))
 
 
 @compiled
 def pass_ticks(
-    constants: np.ndarray, inputs: np.ndarray, carried: np.ndarray, first: int, count: int
+    constants: np.ndarray,
+    inputs: np.ndarray,
+    carried: np.ndarray,
+    spring: np.ndarray,
+    first: int,
+    count: int,
 ) -> None:
     """Advance `count` periods without the loop: x̂ with ŵ and the last torque sent.
 
     If x̂ were constant, the motion of several periods would count as that of one period, which
     would give a wrong velocity. The law, which may have its own observer, is called for these ticks
-    from `first` on, with the same x̂; its torque is not sent.
+    from `first` on, with the same x̂; its torque is not sent. The filters of the spring estimator
+    start again: nothing was measured.
     """
     k, c = constants[0], carried[0]
+    spring[0].periods = 0.0
     w = read_disturbance(c.estimate)
     for passed in range(count):
         actual, applied = find_late_torque(k, c)
@@ -222,14 +242,21 @@ def predict(constants: np.record, carried: np.record) -> State:
 
 
 @compiled
-def publish_measured(blocks: Blocks, carried: np.record, tick: int, row: np.ndarray) -> None:
+def publish_measured(
+    blocks: Blocks, carried: np.record, spring: np.ndarray, tick: int, row: np.ndarray
+) -> None:
     """Write one `Sample` of a bench into its row, (channels,).
 
     The true w is unknown; `BenchRun`, which simulates the twin, fills in the residuals.
     """
     y, reference, torque = carried.measured, carried.reference, carried.sent
-    known, estimate, nothing = carried.known, carried.believed, math.nan
+    x, estimate, nothing = read_state(carried.known), carried.believed, math.nan
+    applied = Torque(carried.applied.u1, carried.applied.u2)
     q = y.theta1 + y.phi
+    nominal_sigma, found = 0.0, NO_ESTIMATE
+    if blocks.spring.every > 0.0:
+        positions = Positions(q, y.theta1, y.theta2)
+        nominal_sigma, found = estimate_spring(blocks, spring, x, positions, applied)
     mu = compute_coordinate(blocks.nominal, y.theta2)
     sigma = compute_stiffness_of(blocks.nominal, mu, y.phi)
     values = Sample(
@@ -238,13 +265,13 @@ def publish_measured(blocks: Blocks, carried: np.record, tick: int, row: np.ndar
         velocity_reference_rad_per_s=reference.dq,
         stiffness_reference_nm_per_rad=reference.sigma,
         position_rad=q,
-        velocity_rad_per_s=known.dq,
-        position_estimate_rad=known.q,
-        velocity_estimate_rad_per_s=known.dq,
+        velocity_rad_per_s=x.dq,
+        position_estimate_rad=x.q,
+        velocity_estimate_rad_per_s=x.dq,
         motor1_position_rad=y.theta1,
-        motor1_velocity_rad_per_s=known.dtheta1,
+        motor1_velocity_rad_per_s=x.dtheta1,
         motor2_position_rad=y.theta2,
-        motor2_velocity_rad_per_s=known.dtheta2,
+        motor2_velocity_rad_per_s=x.dtheta2,
         deflection_rad=y.phi,
         deflection_limit_rad=compute_deflection_limit(blocks.domain, blocks.nominal, mu),
         lever_ratio=mu,
@@ -262,5 +289,10 @@ def publish_measured(blocks: Blocks, carried: np.record, tick: int, row: np.ndar
         position_residual_rad=0.0,
         stiffness_residual_nm_per_rad=0.0,
         payload_estimate_kg=0.0,
+        stiffness_estimate_nm_per_rad=found.ratio * nominal_sigma,
+        stiffness_deviation_nm_per_rad=found.deviation * nominal_sigma,
+        spring_ratio=found.ratio,
+        spring_ratio_deviation=found.deviation,
+        spring_misfit=found.misfit,
     )
     write_sample(row, values)

@@ -18,10 +18,12 @@ from svsa.actuators.dynamics import (
     compute_unexplained_torque,
 )
 from svsa.actuators.elasticity import compute_coordinate, compute_stiffness_of
-from svsa.actuators.signals import Reference, Sample
+from svsa.actuators.signals import Positions, Reference, Sample, State, Torque
 from svsa.control.call import Call, read_estimate
+from svsa.control.observers.spring import NO_ESTIMATE, SpringEstimate, read_spring, update_spring
 from svsa.numerics.compilation import compiled
 from svsa.simulation.loop.lane import Action, Blocks, LaneState
+from svsa.simulation.plant.sensors import read_positions
 
 
 @intrinsic
@@ -63,6 +65,29 @@ def compute_nominal_torque(blocks: Blocks, lane: LaneState, F: InternalTorque) -
 
 
 @compiled
+def estimate_spring(
+    blocks: Blocks, spring: np.ndarray, known: State, measured: Positions, applied: Torque
+) -> tuple[float, SpringEstimate]:
+    """Update the spring estimator by the period that has ended.
+
+    Args:
+        blocks: `Blocks`, whose estimator is on.
+        spring: Packed `Spring`, written.
+        known: x̂ at its end, `State`.
+        measured: Measured `Positions` there, rad.
+        applied: Mean `Torque` during it, N·m.
+
+    Returns:
+        Nominal stiffness at x̂, N·m/rad, and `SpringEstimate`.
+    """
+    nominal, constants, state = blocks.nominal, blocks.spring, spring[0]
+    update_spring(constants, state, nominal, measured, known.dtheta1, applied.u1, blocks.period)
+    s = compute_coordinate(nominal, known.theta2)
+    sigma = compute_stiffness_of(nominal, s, compute_deflection(known))
+    return sigma, read_spring(constants, state)
+
+
+@compiled
 def publish(
     runs: bool,
     blocks: Blocks,
@@ -86,6 +111,10 @@ def publish(
     phi = compute_deflection(x)
     mu = compute_coordinate(blocks.plant, x.theta2)
     sigma = compute_stiffness_of(blocks.plant, mu, phi)
+    nominal_sigma, spring = 0.0, NO_ESTIMATE
+    if blocks.spring.every > 0.0:
+        measured = read_positions(blocks.effects, x, tick)
+        nominal_sigma, spring = estimate_spring(blocks, lane.spring, known, measured, lane.applied)
     acceleration = Acceleration(rate.dq, rate.dtheta1, rate.dtheta2)
     F = compute_nominal_torque(blocks, lane, F)
     w = compute_unexplained_torque(blocks.nominal, F, torque, acceleration)
@@ -119,6 +148,11 @@ def publish(
         position_residual_rad=0.0,
         stiffness_residual_nm_per_rad=0.0,
         payload_estimate_kg=0.0,
+        stiffness_estimate_nm_per_rad=spring.ratio * nominal_sigma,
+        stiffness_deviation_nm_per_rad=spring.deviation * nominal_sigma,
+        spring_ratio=spring.ratio,
+        spring_ratio_deviation=spring.deviation,
+        spring_misfit=spring.misfit,
     )
     write_sample(row, values)
     return row

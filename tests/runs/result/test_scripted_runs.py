@@ -74,7 +74,9 @@ def test_impossible_change_is_rejected(commands: list, words: str) -> None:
 
 
 def test_empty_change_and_unknown_name_are_rejected() -> None:
-    with pytest.raises(svsa.ParameterError, match="of law, gains, parameters, observer, position"):
+    with pytest.raises(
+        svsa.ParameterError, match="of law, gains, parameters, observer, spring, position"
+    ):
         svsa.Change(at_s=1.0)
     with pytest.raises(svsa.ParameterError, match="controller"):
         svsa.Change(at_s=1.0, controller="fl")  # pyright: ignore[reportCallIssue]
@@ -173,7 +175,7 @@ def test_result_is_shown_as_two_lines_and_a_picture(result: svsa.Result) -> None
     lines = repr(result).splitlines()
     assert len(lines) == 2
     assert lines[0].startswith(
-        "NDOBC → FL → NDOBC compared with FL, 0.6 s at 1000 Hz (600 samples of 29 channels)"
+        "NDOBC → FL → NDOBC compared with FL, 0.6 s at 1000 Hz (600 samples of 34 channels)"
     )
     numbers = r"NDOBC since 0\.4 s: position error [\d.e-]+° rms, .* peak; stiffness .* N·m"
     numbers = r"NDOBC since 0\.4 s: position error [\d.e-]+° rms, .* peak; stiffness .* N·m"

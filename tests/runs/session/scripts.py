@@ -73,6 +73,9 @@ effects = st.sampled_from([svsa.IDEAL, svsa.RIG, EVERY_EFFECT]) | st.builds(
     noise=st.none() | st.builds(SensorNoise, motor_std_rad=st.floats(0.0, 1e-4)),
     gravity=st.none() | st.builds(LinkGravity, moment_nm=st.floats(0.0, 1.0)),
 )
+springs = st.builds(
+    svsa.SpringEstimation, is_on=st.booleans(), filter_rad_per_s=st.floats(20.0, 100.0)
+)
 lanes = st.builds(
     svsa.Lane, law=laws, gains=st.none() | gains, observer=st.none() | observers
 ) | st.builds(svsa.Lane, law=st.just("fl_integral"), parameters=integral_poles)
@@ -86,6 +89,7 @@ ARGUMENTS = {
     "gains": gains,
     "parameters": st.fixed_dictionaries({"fl_integral": integral_poles}),
     "observer": observers,
+    "spring": springs,
     "actuator": actuators,
     "nominal": actuators,
     "effects": effects,

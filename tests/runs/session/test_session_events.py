@@ -51,6 +51,7 @@ def test_every_command_is_logged_with_its_tick():
     slower = {"fl_integral": {"position_pole_rad_per_s": 50.0}}
     session.change(Set("parameters", slower))
     session.change(Set("observer", svsa.ObserverBandwidth(bandwidth_rad_per_s=(30.0,) * 3)))
+    session.change(Set("spring", svsa.SpringEstimation()))
     session.change(Set("actuator", design.actuator))
     session.change(Set("nominal", design.nominal))
     session.change(Set("effects", svsa.RIG))

@@ -110,7 +110,7 @@ def compose_tick(blocks, law, inputs, lane, tick, sample):
     estimate = update_disturbance_estimate(
         blocks.nominal, blocks.shares, lane.estimate, lane.known, known, applied, period
     )
-    return LaneState(x, known, estimate, actual, applied, limited, lane.memory)
+    return LaneState(x, known, estimate, actual, applied, limited, lane.memory, lane.spring)
 
 
 def test_one_call_equals_a_run(parts, initial, result):

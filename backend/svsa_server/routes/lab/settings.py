@@ -10,6 +10,7 @@ from fastapi import Body, Depends, Path, Query
 from svsa.actuators.parameters import MechanismParameters
 from svsa.control.installed import check_installed, read_parameters
 from svsa.control.observers.disturbance import ObserverBandwidth
+from svsa.control.observers.spring import SpringEstimation
 from svsa.control.parameters import LawParameters
 from svsa.errors import ParameterError
 from svsa.inputs.checked import Checked
@@ -179,6 +180,18 @@ def set_observer(
 ) -> SessionState:
     """Set the bandwidth of the disturbance observer on link, motor 1 and motor 2."""
     hosted.session.patch(lambda _: Set("observer", request), joint)
+    return build_state(hosted)
+
+
+@router.put("/spring")
+@allow(OPERATOR)
+def set_spring(
+    hosted: NamedSession,
+    request: Annotated[SpringEstimation, Body(examples=[{}, {"is_on": False}])],
+    joint: OfJoint = None,
+) -> SessionState:
+    """Set the spring estimator, which starts again from its prior; omitted fields are defaults."""
+    hosted.session.patch(lambda _: Set("spring", request), joint)
     return build_state(hosted)
 
 

@@ -10,6 +10,7 @@ from svsa.actuators.parameters import Limits
 from svsa.control.arm_payload import PayloadAdaptation
 from svsa.control.installed import InstalledLaw
 from svsa.control.observers.disturbance import ObserverBandwidth
+from svsa.control.observers.spring import SpringEstimation
 from svsa.errors import ParameterError
 from svsa.inputs.checked import Checked, quantity
 from svsa.runs.definition.design import MAX_LANES, Lane
@@ -117,6 +118,7 @@ class ConfigurationState(BaseModel):
         " lanes"
     )
     observer: ObserverBandwidth
+    spring: SpringEstimation
     limits: Limits
     actuator: ActuatorValues
     nominal: ActuatorValues
