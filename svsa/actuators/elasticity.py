@@ -5,6 +5,8 @@ the functions of an elastic energy, called by their address (`ElasticActuator`).
 coordinate, s = s0 + κ θ2: the lever ratio μ of the SVSA. φ = q − θ1, rad.
 """
 
+import itertools
+import math
 from typing import NamedTuple, TypeAlias
 
 from svsa.actuators.kinds import (
@@ -18,6 +20,7 @@ from svsa.actuators.lever import (
     compute_lever_ratio_for_stiffness,
     compute_lever_ratio_slope,
 )
+from svsa.actuators.mechanism import MAX_ELASTIC
 from svsa.actuators.spring import (
     REACTION_PRINTED,
     SpringDerivatives,
@@ -249,7 +252,28 @@ def _loaded_energy(actuator: ElasticActuator, M: float, _: float) -> ElasticActu
     )  # fmt: skip
 
 
+@compiled
+def _scaled_svsa(actuator: Actuator, ratio: float, mask: tuple[float, ...]) -> Actuator:
+    a = actuator
+    K = a.K * ratio
+    return Actuator(a.M, a.B1, a.B2, a.D, a.D1, a.D2, K, a.gamma, a.mu0, a.reaction)
+
+
+@compiled
+def _scaled_energy(
+    actuator: ElasticActuator, ratio: float, mask: tuple[float, ...]
+) -> ElasticActuator:
+    a, m, r = actuator, mask, ratio - 1.0
+    return ElasticActuator(
+        a.M, a.B1, a.B2, a.D, a.D1, a.D2, a.kappa, a.mu0, a.lowest, a.highest, a.antagonistic,
+        a.torques_address, a.margin_address, a.state_address,
+        a.e0 * (1.0 + m[0] * r), a.e1 * (1.0 + m[1] * r), a.e2 * (1.0 + m[2] * r),
+        a.e3 * (1.0 + m[3] * r), a.e4 * (1.0 + m[4] * r), a.e5 * (1.0 + m[5] * r),
+    )  # fmt: skip
+
+
 _loaded = choose_kind(_loaded_svsa, _loaded_energy)
+_scaled = choose_kind(_scaled_svsa, _scaled_energy)
 _torques = choose_kind(_torques_of_svsa, _torques_of_energy)
 _torques_inside = choose_kind(_torques_of_svsa, _torques_inside_of_energy)
 _stiffness = choose_kind(_stiffness_of_svsa, _stiffness_of_energy)
@@ -265,6 +289,48 @@ _inverse = choose_kind(_inverse_of_svsa, _inverse_of_energy)
 def replace_link_inertia(actuator: AnyActuator, M: float) -> AnyActuator:
     """The same actuator with another link inertia M, kg·m²."""
     return _loaded(actuator, M, 0.0)
+
+
+@compiled
+def scale_spring(actuator: AnyActuator, ratio: float, mask: tuple[float, ...]) -> AnyActuator:
+    """The same actuator with `ratio` times the torque of its spring.
+
+    Args:
+        actuator: Constants of the actuator, or a packed one.
+        ratio: Factor of the spring torque.
+        mask: See `find_spring_scale`.
+    """
+    return _scaled(actuator, ratio, mask)
+
+
+def find_spring_scale(actuator: AnyActuator) -> tuple[float, ...] | None:
+    """Find the parameters of the energy whose common factor is a factor of the spring torque.
+
+    Args:
+        actuator: Constants of the actuator.
+
+    Returns:
+        1 for each of e0 to e5 that has the factor, otherwise 0; zeros for the SVSA, whose K has it;
+        None if there is no such factor.
+    """
+    none = (0.0,) * MAX_ELASTIC
+    if isinstance(actuator, Actuator):
+        return none
+    low, high = actuator.lowest, actuator.highest
+    points = [(low + share * (high - low), phi) for share in (0.3, 0.7) for phi in (0.02, 0.1)]
+    used = [i for i, value in enumerate(_list_values(actuator)) if value != 0.0]
+    for count in range(1, len(used) + 1):
+        for chosen in itertools.combinations(used, count):
+            mask = tuple(float(i in chosen) for i in range(MAX_ELASTIC))
+            doubled = scale_spring(actuator, 2.0, mask)
+            torques = [compute_torques(actuator, *point).torque for point in points]
+            twice = [compute_torques(doubled, *point).torque for point in points]
+            if all(
+                math.isclose(two, 2.0 * one, rel_tol=1e-9)
+                for one, two in zip(torques, twice, strict=True)
+            ):
+                return mask
+    return None
 
 
 @compiled

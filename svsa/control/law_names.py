@@ -14,6 +14,7 @@ KnownLaw: TypeAlias = Literal[
     "linear_dob",
     "lqi",
     "ndobc",
+    "ndobc_k",
     "ndobc_s",
     "ndobc_w",
     "nmpc",

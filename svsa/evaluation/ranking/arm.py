@@ -28,7 +28,7 @@ from svsa.evaluation.tuning.tuner import Candidate, tune
 from svsa.inputs.checked import Checked, Flag, Number, Whole, quantity
 from svsa.runs.definition.arm_experiment import ARMS
 
-LEFT_OUT = ("ilc", "impedance", "nmpc")
+LEFT_OUT = ("ilc", "impedance", "ndobc_k", "nmpc")
 """A law that learns over repetitions, one that yields to loads by choice, and one that takes a
 thousand times as long as the others.
 """
