@@ -35,6 +35,7 @@ from svsa.evaluation.falsifier.cli import falsify
 from svsa.evaluation.ranking.arm_cli import rank_arm
 from svsa.evaluation.ranking.bench_cli import bench as ranking_bench
 from svsa.evaluation.ranking.cli import ranking
+from svsa.evaluation.spring_trials import spring_trials
 from svsa.evaluation.studies.cli import study
 from svsa.evaluation.tuning.cli import tune
 from svsa.hardware.cli import bench_check, bench_home
@@ -141,6 +142,7 @@ app.command("export-model")(export_model)
 app.command("arm-map")(arm_map)
 app.command("arm-collision")(arm_collision)
 app.command("arm-interaction")(arm_interaction)
+app.command("spring-trials")(spring_trials)
 app.command("bench-check")(bench_check)
 app.command("bench-home")(bench_home)
 

@@ -4,13 +4,19 @@ Loop, plant and limits are those of a bench; time advances when the loop request
 gives the same samples every time.
 """
 
+import contextlib
+import tempfile
 from collections.abc import Callable
+from pathlib import Path
+
+import tomli_w
 
 from svsa.errors import FaultError, StateError
 from svsa.hardware.description.calibration import find_calibration
 from svsa.hardware.description.file import BenchFile, read_bench
 from svsa.hardware.emulator.bench_file import EMULATOR_BENCH
 from svsa.hardware.emulator.launch import RunningEmulator, start_emulator
+from svsa.hardware.emulator.parameters import EmulatorParameters
 from svsa.hardware.plant.can_plant import CanPlant
 from svsa.hardware.plant.clock import LockstepClock
 from svsa.hardware.realtime.configuration import (
@@ -25,6 +31,7 @@ from svsa.hardware.safety.machine import BenchStatus
 from svsa.runs.definition.configuration import Configuration
 from svsa.runs.definition.paper import LOAD_TIME_S, Figure
 from svsa.runs.result.result import Result
+from svsa.simulation.plant.loads import Load
 
 ARMING_S = 5.0
 SETTLING_S = 0.2
@@ -118,22 +125,54 @@ def run_on_emulator(
     Raises:
         FaultError: If the run ends in a fault.
     """
-    with start_emulator(lockstep=True) as emulator:
-        bench = LockstepBench(emulator, figure.build_configuration(law), round(duration_s / 0.001))
-        try:
-            bench.prepare()
-            bench.start()
-            onset = bench.now() + LOAD_TIME_S
-            emulator.control.load(figure.hung.changed(start_s=None), at_s=onset)
-            ticks = len(bench.sink.samples)
-            for tick in range(ticks):
-                bench.tick()
-                if bench.plant.fault is not None:
-                    raise FaultError(bench.plant.fault)
-                if tick % 100 == 0:
-                    progress(tick / ticks)
-            progress(1.0)
-        finally:
-            bench.close()
+    request = figure.build_configuration(law)
+    return run_request(request, figure.hung, LOAD_TIME_S, duration_s, progress)
+
+
+def run_request(
+    request: Configuration,
+    load: Load,
+    onset_s: float,
+    duration_s: float,
+    progress: Callable[[float], None],
+    parameters: EmulatorParameters | None = None,
+) -> Result:
+    """Run a configuration on the emulator, with a load that the bench does not know.
+
+    Args:
+        request: Law, references and spring estimator.
+        load: Load on the emulated mechanism.
+        onset_s: Its onset, s.
+        duration_s: Duration of the run, s.
+        progress: Receives the finished share.
+        parameters: Of the emulator; by default those of the paper's bench.
+
+    Returns:
+        The run.
+
+    Raises:
+        FaultError: If the run ends in a fault.
+    """
+    with contextlib.ExitStack() as stack:
+        options: list[str] = []
+        if parameters is not None:
+            folder = Path(stack.enter_context(tempfile.TemporaryDirectory()))
+            values = parameters.model_dump(mode="json", exclude_none=True)
+            (folder / "emulator.toml").write_text(tomli_w.dumps(values), encoding="utf-8")
+            options = ["--file", str(folder / "emulator.toml")]
+        emulator = stack.enter_context(start_emulator(True, 120.0, *options))
+        bench = LockstepBench(emulator, request, round(duration_s / 0.001))
+        stack.callback(bench.close)
+        bench.prepare()
+        bench.start()
+        emulator.control.load(load.changed(start_s=None), at_s=bench.now() + onset_s)
+        ticks = len(bench.sink.samples)
+        for tick in range(ticks):
+            bench.tick()
+            if bench.plant.fault is not None:
+                raise FaultError(bench.plant.fault)
+            if tick % 100 == 0:
+                progress(tick / ticks)
+        progress(1.0)
     samples = bench.sink.samples[: bench.sink.done]
-    return Result(bench.configuration, samples, law=law, plant="emulated")
+    return Result(bench.configuration, samples, law=request.law, plant="emulated")
