@@ -37,7 +37,7 @@ READ = """(root) => {
 SAME = re.compile(
     r"^(httpx\.|svsa identify ).*|"
     r"\b(SVSA( Lab)?|NDOBC|FL|IAE|CSV|PNG|SVG|Python|curl|API|REST|experiment\.py|Esc|Shift|Live|"
-    r"deg|rad|kg|ms|Hz|max|min|samples|Reset|Pause|Position|Amplitude|Status|Parameter|Ideal|Motor)\b"
+    r"deg|m?rad|kg|ms|Hz|max|min|samples|Reset|Pause|Position|Amplitude|Status|Parameter|Ideal|Motor)\b"
 )
 
 

@@ -97,7 +97,8 @@ def test_every_channel_of_the_server_can_be_selected(page: Page) -> None:
     expect(picker).to_be_visible()
     options = picker.locator("option")
     values = options.evaluate_all("all => all.map(option => option.value).filter(Boolean)")
-    derived = {"velocity_error_rad_per_s"}
+    edges = {f"stiffness_{edge}_nm_per_rad" for edge in ("upper", "lower")}
+    derived = {"velocity_error_rad_per_s"} | edges
     assert sorted(values) == sorted(set(CHANNEL_NAMES) - {"time_s"} | derived)
     page.keyboard.press("Escape")
     expect(picker).to_be_hidden()

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from svsa.actuators.signals import PLOTTED
+from svsa.actuators.signals import ESTIMATED, PLOTTED
 from svsa.runs.metrics.metrics import MEASURED, RunningMetrics
 from svsa.runs.records.measured_window import MeasuredWindow, summarize
 from svsa_scene.replay_packing import ArrayPack
@@ -21,6 +21,9 @@ every sample.
 
 _AXIS_PARTS = 4000
 _MIN_AXES = {
+    "stiffness_estimate_nm_per_rad": 2.0,
+    "stiffness_deviation_nm_per_rad": 2.0,
+    "spring_misfit": 1.0,
     "position_error_rad": math.radians(0.004),
     "position_rad": math.radians(2.0),
     "position_reference_rad": math.radians(2.0),
@@ -55,6 +58,12 @@ def resolve(channel: str) -> float:
     return _MIN_AXES.get(channel, _MIN_TORQUE_AXIS_NM) / _AXIS_PARTS
 
 
+def was_estimated(samples: Array, channels: Sequence[str]) -> bool:
+    """Whether the spring estimator was on in some sample (ticks, lanes, channels)."""
+    name = ESTIMATED[-1]
+    return name in channels and bool(np.any(samples[:, :, channels.index(name)] > 0.0))
+
+
 def pack_curves(
     samples: Array, channels: Sequence[str], period_s: float, pack: ArrayPack
 ) -> dict[str, Any]:
@@ -74,7 +83,7 @@ def pack_curves(
                 )
                 for lane in range(lanes)
             ]
-            for name in PLOTTED
+            for name in (*PLOTTED, *(ESTIMATED if was_estimated(samples, channels) else ()))
             if name in channels
         },
     }

@@ -27,6 +27,12 @@ export function formatNumber(value: number | null | undefined, digits = 3, most 
   return localize(text.startsWith("-") && Number(unsigned) !== 0 ? MINUS + unsigned : unsigned);
 }
 
+/** A value with the half width of its interval, of which one digit is significant: 41.2 ± 0.4. */
+export function formatInterval(value: number, half: number): string {
+  const decimals = decimalsFor(half, 1);
+  return `${formatFixed(value, decimals)} ± ${formatFixed(half, decimals)}`;
+}
+
 /** As many decimals as given, with an ASCII minus sign. */
 export const formatFixed = (value: number, decimals: number): string =>
   localize(value.toFixed(decimals));

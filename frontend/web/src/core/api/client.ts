@@ -103,6 +103,7 @@ export const readHealth = () => call("get", "/health", {});
 export const readState = () => call("get", "/sessions/{session}", {});
 export const putPosition = (body: RequestOf<PositionReference>) =>
   inSession("put", "/position", { body });
+export const putSpring = (body: Configuration["spring"]) => inSession("put", "/spring", { body });
 export const putStiffness = (body: RequestOf<StiffnessReference>) =>
   inSession("put", "/stiffness", { body });
 /** Restart the current reference with a fade; of all joints each its own. */

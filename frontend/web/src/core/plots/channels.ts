@@ -1,6 +1,6 @@
 /** The server's channels in plots: unit, scale, line style, and related channels. */
 import type { SessionState, StreamedName } from "../api/types";
-import type { DerivedName } from "../stream/ring";
+import type { DerivedName } from "../stream/derived";
 import { t } from "../text/t";
 import { DEGREES_PER_RADIAN } from "../units";
 import type { Bound, PlotColour, Trace } from "./definitions";
@@ -20,6 +20,10 @@ interface ChannelLook {
   isReference?: true;
   /** The channel that this one estimates. */
   truthOf?: ChannelName;
+  /** This channel estimates the channel of this name, and has a legend entry next to it. */
+  estimateOf?: ChannelName;
+  /** Upper and lower edge of its 95 % interval, drawn with it. */
+  band?: readonly [ChannelName, ChannelName];
   /** This channel is the limit (±) of the channel of this name. */
   limitOf?: ChannelName;
   /** Fixed limit (±), SI. */
@@ -53,6 +57,7 @@ export function largestTorque(
 }
 
 const torque = (colour: PlotColour): ChannelLook => ({ unit: "N·m", factor: 1, span: 1, colour });
+const ratio = (colour: PlotColour): ChannelLook => ({ unit: "1", factor: 1, span: 0.1, colour });
 
 export const CHANNELS: Readonly<Record<ChannelName, ChannelLook>> = {
   position_reference_rad: { ...angle("reference"), isReference: true },
@@ -74,6 +79,17 @@ export const CHANNELS: Readonly<Record<ChannelName, ChannelLook>> = {
   stiffness_nm_per_rad: stiffness("green"),
   stiffness_error_nm_per_rad: stiffness("vermilion", 0.004),
   stiffness_residual_nm_per_rad: stiffness("purple", 0.004),
+  stiffness_estimate_nm_per_rad: {
+    ...stiffness("orange"),
+    estimateOf: "stiffness_nm_per_rad",
+    band: ["stiffness_upper_nm_per_rad", "stiffness_lower_nm_per_rad"],
+  },
+  stiffness_upper_nm_per_rad: stiffness("orange"),
+  stiffness_lower_nm_per_rad: stiffness("orange"),
+  stiffness_deviation_nm_per_rad: stiffness("purple", 0.1),
+  spring_ratio: ratio("purple"),
+  spring_ratio_deviation: ratio("orange"),
+  spring_misfit: ratio("vermilion"),
   torque1_nm: {
     ...torque("blue"),
     bound: (state) => largestTorque(state, "torque1_nm"),
@@ -88,7 +104,7 @@ export const CHANNELS: Readonly<Record<ChannelName, ChannelLook>> = {
   disturbance_link_nm: { ...torque("vermilion"), truthOf: "estimate_link_nm" },
   disturbance_motor1_nm: { ...torque("blue"), truthOf: "estimate_motor1_nm" },
   disturbance_motor2_nm: { ...torque("purple"), truthOf: "estimate_motor2_nm" },
-  lever_ratio: { unit: "1", factor: 1, span: 0.1, colour: "green" },
+  lever_ratio: ratio("green"),
   payload_estimate_kg: { unit: "kg", factor: 1, span: 0.1, colour: "orange" },
 };
 
@@ -117,7 +133,11 @@ export const spanOf = (channels: readonly ChannelName[]): number =>
 const EVERY_PRESET = {
   position: ["position_rad", "position_reference_rad"],
   error: ["position_error_rad"],
-  stiffness: ["stiffness_nm_per_rad", "stiffness_reference_nm_per_rad"],
+  stiffness: [
+    "stiffness_nm_per_rad",
+    "stiffness_estimate_nm_per_rad",
+    "stiffness_reference_nm_per_rad",
+  ],
   stiffnessError: ["stiffness_error_nm_per_rad"],
   torque: ["torque1_nm", "torque2_nm"],
   disturbance: [

@@ -1,6 +1,7 @@
 /** Curves: the points of the visible span, strokes and markers. */
 import uPlot from "uplot";
 import type { SampleRing } from "../stream/ring";
+import { BAND_OPACITY, type Banded, bandsOf } from "./bands";
 import { decimate, emptyPoints, type Points, samplesPerBucket } from "./decimation";
 import { type PlotSign, samplesOf, type Trace } from "./definitions";
 import { palette } from "./linestyles";
@@ -108,6 +109,19 @@ export function pathOf({ x: xs, y: ys, count }: Points, place: Place, begin = 0)
     isDown = true;
   }
   return path;
+}
+
+export function fillBands(
+  context: CanvasRenderingContext2D,
+  curves: readonly Banded[],
+  place: Place,
+): void {
+  context.globalAlpha = BAND_OPACITY;
+  for (const { colour, outline } of bandsOf(curves)) {
+    context.fillStyle = palette.peek()[colour];
+    context.fill(pathOf(outline, place));
+  }
+  context.globalAlpha = 1;
 }
 
 /** Map from the scales of a plot to its canvas. */

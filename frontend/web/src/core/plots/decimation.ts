@@ -24,13 +24,13 @@ export function makeRoom(points: Points, count: number): void {
   points.y = new Float64Array(count);
 }
 
-function put(points: Points, x: number, y: number): void {
+export function put(points: Points, x: number, y: number): void {
   points.x[points.count] = x;
   points.y[points.count++] = y;
 }
 
 /** Insert one interruption of the path. */
-function lift(points: Points): void {
+export function lift(points: Points): void {
   const isLifted = points.count > 0 && Number.isNaN(points.y[points.count - 1]);
   if (!isLifted) put(points, Number.NaN, Number.NaN);
 }

@@ -34,6 +34,8 @@ export interface Trace extends LineStyle {
   follows?: string;
   /** Whether it is another piece of the curve that it belongs to. */
   continues?: true;
+  /** The area up to the curve of this key is filled. */
+  fillsTo?: string;
 }
 
 /** Lines at ±value. */

@@ -16,13 +16,14 @@ export function composeOfJoint(
   cast: LaneSegments,
   joint: Joint | null,
   joints: number,
+  isBench?: boolean,
 ): PlotContent {
-  if (joint === null) return composeContent(channels, cast);
+  if (joint === null) return composeContent(channels, cast, isBench);
   const lanes = lanesOfJoint(cast.length, joint, joints);
   const own = lanes.map((lane) =>
     (cast[lane - 1] ?? []).map((segment) => ({ ...segment, name: nameWithoutJoint(segment.name) })),
   );
-  const { groups, common } = composeContent(channels, own);
+  const { groups, common } = composeContent(channels, own, isBench);
   const move = (trace: Trace): Trace => ({ ...trace, lane: lanes[trace.lane - 1] ?? trace.lane });
   return {
     groups: groups.map((group) => ({ ...group, traces: group.traces.map(move) })),

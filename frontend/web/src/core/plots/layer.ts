@@ -6,7 +6,7 @@
  */
 import uPlot from "uplot";
 import type { SampleRing } from "../stream/ring";
-import { type Curve, drawSigns, type Place } from "./curves";
+import { type Curve, drawSigns, fillBands, type Place } from "./curves";
 import { palette } from "./linestyles";
 import type { Span } from "./spans";
 
@@ -100,6 +100,7 @@ export class StrokeLayer {
       context.rect(piece.from, 0, piece.to - piece.from, this.#canvas.height);
       context.clip();
       context.translate(piece.shift, 0);
+      fillBands(context, shown, place);
       // The first controller, which is selected, is on top, and the references are below all.
       for (const curve of [...shown].reverse()) {
         curve.stroke(context, place, from - STROKE_PX * uPlot.pxRatio);

@@ -21,14 +21,25 @@ const COMPARISON_DASHES = [
   [14, 4, 5, 4],
 ] as const;
 const LANE_DASHES = [PLAIN, ...COMPARISON_DASHES] as const;
+/** From the twenty-first law on. */
+const FURTHER_DASHES = [
+  [14, 4, 5, 4, 5, 4],
+  [4, 3, 9, 3],
+] as const;
+
+function chooseDash(lineStyle: number): readonly number[] {
+  const isFurther = lineStyle >= LANE_COLOURS.length * LANE_DASHES.length;
+  const dashes = isFurther ? FURTHER_DASHES : LANE_DASHES;
+  return dashes[lineStyle % dashes.length] as readonly number[];
+}
 
 /**
- * Line style 0, 1, …: twenty, no two with the same color and dash, neighbours with different color
+ * Line style 0, 1, …: thirty, no two with the same color and dash, neighbours with different color
  * and dash.
  */
 export const lineStyleOf = (lineStyle: number): LineStyle => ({
   colour: LANE_COLOURS[lineStyle % LANE_COLOURS.length] as PlotColour,
-  dash: LANE_DASHES[lineStyle % LANE_DASHES.length] as readonly number[],
+  dash: chooseDash(lineStyle),
   width: 2,
 });
 

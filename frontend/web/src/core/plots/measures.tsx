@@ -1,3 +1,4 @@
+import { bench } from "../state/plant";
 import type { SampleRing } from "../stream/ring";
 import { t } from "../text/t";
 import { formatFixed, formatNumber } from "../units";
@@ -6,7 +7,7 @@ import { cursorSamples } from "./cursors";
 import { readPiece, samplesOf, type Trace } from "./definitions";
 import { Swatch } from "./legend";
 import { titleOf } from "./plot";
-import { type PlotSetup, setups } from "./setups";
+import { type PlotSetup, setups, withoutMissing } from "./setups";
 import { frozen, shownLaneSegments } from "./span";
 import { type Measures, measureBetween } from "./statistics";
 import { composeContent, tracesOf } from "./traces";
@@ -26,7 +27,7 @@ const isTruth = ({ channel }: Trace) => CHANNELS[channel as ChannelName].truthOf
 /** Every curve of a plot except for the opposite limits; true values are named after their lane. */
 function curvesOf({ channels }: PlotSetup): Trace[] {
   const lanes = shownLaneSegments.value;
-  const content = composeContent(channels, lanes);
+  const content = composeContent(withoutMissing(channels), lanes, bench.value !== null);
   const everything = new Set(content.groups.map((group) => group.key));
   return tracesOf(content, everything, lanes.length)
     .filter(({ factor }) => factor > 0)

@@ -6,13 +6,16 @@ import { limitRate } from "../rate";
 import { jointCount } from "../state/arm";
 import type { LaneSegments } from "../state/lanes";
 import { lawOf } from "../state/laws";
+import { bench } from "../state/plant";
 import { session } from "../state/session";
+import type { SampleRing } from "../stream/ring";
 import { t } from "../text/t";
 import { formatNumber } from "../units";
 import { CHANNELS, spanOf, unitOf } from "./channels";
 import { Chart } from "./chart";
 import { ChartBox } from "./chartbox";
-import { ownerOf, readPiece, type Trace } from "./definitions";
+import { isWithin, ownerOf, readPiece, type Trace } from "./definitions";
+import { describeEstimate, ESTIMATE } from "./estimate";
 import { EVENT_VIEW, isZoomOn, zoomedLaneSegments } from "./eventzoom";
 import { onFrame } from "./frame";
 import { hoverShare, sampleRead } from "./hover";
@@ -20,9 +23,9 @@ import { composeOfJoint, lanesOfJoint } from "./joints";
 import { Legend, useHidden } from "./legend";
 import { PlotMenu } from "./menu";
 import { type PhaseChannels, PhaseChart } from "./phase";
-import type { PlotSetup } from "./setups";
+import { type PlotSetup, withoutMissing } from "./setups";
 import { PLOTS_VIEW, shownLaneSegments, shownRing, shownSpan } from "./span";
-import { hasOneValue, hasUnnamedTruth, tracesOf } from "./traces";
+import { hasOneValue, hasUnnamedTruth, noteOfStiffness, tracesOf } from "./traces";
 
 const READING_MS = 120;
 
@@ -51,10 +54,10 @@ function useTraces(
   lanes: LaneSegments,
   joint: Joint | null,
 ) {
-  const drawn = preset === "phase" ? channels.slice(1) : channels;
+  const drawn = preset === "phase" ? channels.slice(1) : withoutMissing(channels);
   const key = drawn.join();
   const content = useMemo(
-    () => composeOfJoint(drawn, lanes, joint, jointCount.value),
+    () => composeOfJoint(drawn, lanes, joint, jointCount.value, bench.value !== null),
     [key, lanes, joint],
   );
   const groupKeys = content.groups.map((group) => group.key);
@@ -78,12 +81,20 @@ function keepReadings(traces: readonly Trace[], readings: ReadonlyMap<string, HT
     for (const [key, element] of readings) {
       const values = traces.filter((trace) => ownerOf(trace) === key);
       const entry = element.parentElement as HTMLElement;
-      entry.hidden = values.every(({ to }) => to <= from);
-      const next = formatNumber(
-        values.map((trace) => readPiece(ring, trace, index)).find(Number.isFinite),
-        3,
-        3,
-      );
+      const isGone = values.every(({ to }) => to <= from);
+      const isEstimate = values.some(({ channel }) => channel === ESTIMATE);
+      const next = isEstimate
+        ? readEstimate(ring, values, index)
+        : formatNumber(
+            values.map((trace) => readPiece(ring, trace, index)).find(Number.isFinite),
+            3,
+            3,
+          );
+      entry.hidden = isGone || next === null;
+      if (isEstimate) {
+        element.title = next ?? "";
+        element.classList.toggle("is-text", !next?.includes("±"));
+      }
       if (element.textContent !== next) element.textContent = next;
     }
   };
@@ -95,6 +106,14 @@ function keepReadings(traces: readonly Trace[], readings: ReadonlyMap<string, HT
     stopFrames();
     stopHover();
   };
+}
+
+/** The estimate of a sample; null if the ring has none at all. */
+function readEstimate(ring: SampleRing, values: readonly Trace[], index: number): string | null {
+  const piece = values.find((trace) => isWithin(trace, ring.timeAt(index)));
+  const text = piece ? describeEstimate((name) => ring.valueAt(name, index, piece.lane)) : "";
+  const isIn = ({ lane }: Trace) => !Number.isNaN(ring.firstTimeOf(ESTIMATE, lane));
+  return text !== "" || values.some(isIn) ? text : null;
 }
 
 interface ChooserProps {
@@ -168,7 +187,7 @@ export function Plot({ setup, isBasic, joint = null }: PlotProps) {
           <Chooser title={title} groups={content.groups} shown={shown} onChoose={setChosen} />
         )}
         <Legend
-          note={noteOf(setup, hasUnnamedTruth(traces))}
+          note={noteOf(setup, traces)}
           entries={traces.filter((trace) => trace.follows === undefined)}
           hidden={hidden.value}
           readings={readings}
@@ -195,7 +214,7 @@ const lawsWithout = computed(() => {
   );
 });
 
-function noteOf({ preset, channels }: PlotSetup, hasTruth: boolean): string | undefined {
+function noteOf({ preset, channels }: PlotSetup, traces: readonly Trace[]): string | undefined {
   const [across] = channels;
   if (preset === "phase" && across !== undefined) {
     return t("plots.phaseNote", {
@@ -205,5 +224,9 @@ function noteOf({ preset, channels }: PlotSetup, hasTruth: boolean): string | un
   }
   const isUnused = lawsWithout.value && channels.some((channel) => channel.startsWith("estimate_"));
   const unused = isUnused ? [t("plots.unusedEstimate", { law: lawsWithout.value })] : [];
-  return (hasTruth ? [...unused, t("plots.disturbanceNote")] : unused).join(" · ") || undefined;
+  const truth = hasUnnamedTruth(traces) ? [t("plots.disturbanceNote")] : [];
+  return (
+    [noteOfStiffness(traces, bench.value !== null) ?? [], unused, truth].flat().join(" · ") ||
+    undefined
+  );
 }

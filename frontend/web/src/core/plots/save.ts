@@ -9,7 +9,7 @@ import { emptyPoints, extentOf } from "./decimation";
 import type { Trace } from "./definitions";
 import { palette } from "./linestyles";
 import { type PhaseChannels, takePhase } from "./phase";
-import { type PlotSetup, setups } from "./setups";
+import { type PlotSetup, setups, withoutMissing } from "./setups";
 import { shownLaneSegments, shownRing, shownSpan } from "./span";
 import { type Drawing, drawSvg, HEIGHT, WIDTH } from "./svg";
 
@@ -107,8 +107,10 @@ function saveCsv(what: string, channels: readonly ChannelName[]): void {
 }
 
 export const savePlotCsv = (title: string, { channels }: PlotSetup): void =>
-  saveCsv(title, channels);
+  saveCsv(title, withoutMissing(channels));
 
 export function saveWindowCsv(): void {
-  saveCsv(t("save.window"), [...new Set(setups.peek().flatMap((setup) => setup.channels))]);
+  saveCsv(t("save.window"), [
+    ...new Set(setups.peek().flatMap((setup) => withoutMissing(setup.channels))),
+  ]);
 }

@@ -1,9 +1,12 @@
 /** The list of plots and their channels, as the user arranged them and the browser stores them. */
 import { computed, signal } from "@preact/signals";
+import { configurationsOf } from "../state/joints";
 import { areAllControlsOn } from "../state/preferences";
+import { session } from "../state/session";
 import { readStored, store } from "../stored";
-import { sourcesOf } from "../stream/ring";
+import { sourcesOf } from "../stream/derived";
 import { CHANNELS, type ChannelName, isChannel, PRESETS, type PresetName } from "./channels";
+import { ESTIMATE } from "./estimate";
 
 export const PRESET_NAMES = Object.keys(PRESETS) as PresetName[];
 const AT_FIRST: readonly PresetName[] = ["position", "error", "stiffness", "torque", "disturbance"];
@@ -73,14 +76,32 @@ export const setups = signal<readonly PlotSetup[]>(
 /** Channels that are shown outside the plots. */
 export const alsoDrawn = signal<readonly ChannelName[]>([]);
 
+let wasOn = false;
+/** Whether the spring estimator is or was on since the page was opened: its past stays visible. */
+const hasEstimate = computed(() => {
+  const state = session.value;
+  wasOn ||= state !== null && configurationsOf(state).some(({ spring }) => spring?.is_on);
+  return wasOn;
+});
+const OF_ESTIMATE: readonly ChannelName[] = [
+  ESTIMATE,
+  "stiffness_deviation_nm_per_rad",
+  "spring_misfit",
+];
+
+/** Without the stiffness estimate while there is none. */
+export const withoutMissing = (channels: readonly ChannelName[]): readonly ChannelName[] =>
+  hasEstimate.value ? channels : channels.filter((name) => name !== ESTIMATE);
+
 /** Channels that the stream must carry. */
 export const channelsInUse = computed(() => [
   ...new Set(
     [
       ...ALWAYS,
       ...alsoDrawn.value,
+      ...(hasEstimate.value ? OF_ESTIMATE : []),
       ...[...setups.value, ...(areAllControlsOn.value ? [] : BASIC_SETUPS)].flatMap(
-        ({ channels }) => channels,
+        ({ channels }) => withoutMissing(channels),
       ),
     ].flatMap(sourcesOf),
   ),

@@ -3,11 +3,14 @@ import { effect, type ReadonlySignal, signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import uPlot from "uplot";
 import { niceRange, timeAxis, valueAxis } from "./axes";
+import { BAND_OPACITY } from "./bands";
 import type { LineStyle } from "./definitions";
 import { type Palette, palette } from "./linestyles";
 import type { Span } from "./spans";
 
 const SMALLEST_DRAG_PX = 4;
+/** The last two digits of a color. */
+const BAND_ALPHA = Math.round(255 * BAND_OPACITY).toString(16);
 
 /** Options of a plot without its size. */
 type ChartOptions = Omit<uPlot.Options, "width" | "height">;
@@ -88,6 +91,8 @@ export interface StaticCurve extends LineStyle {
   values: uPlot.AlignedData[1];
   /** Shown and hidden together with the curve of this key. */
   follows?: string | undefined;
+  /** The area up to the curve of this key is filled. */
+  fillsTo?: string | undefined;
 }
 
 export interface TimeChart {
@@ -137,6 +142,11 @@ export function describeTimeChart(chart: TimeChart): StaticChart {
     },
     axes: [timeAxis(chart.timeAxis.size, chart.timeAxis.tick), valueAxis()],
     series: [{}, ...curves.map(drawnCurve)],
+    bands: curves.flatMap(({ fillsTo, colour }, index) => {
+      const other = curves.findIndex(({ key }) => key === fillsTo);
+      if (other < 0) return [];
+      return { series: [index + 1, other + 1], fill: () => palette.peek()[colour] + BAND_ALPHA };
+    }),
     hooks: {
       drawClear: chart.drawBelow ? [chart.drawBelow] : [],
       draw: chart.drawAbove ? [chart.drawAbove] : [],

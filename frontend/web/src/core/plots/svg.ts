@@ -1,6 +1,7 @@
 /** A plot as SVG: the same curves as vectors, for a file or a raster image. */
 
 import { formatTicks, placeTicks } from "./axes";
+import { BAND_OPACITY, bandsOf } from "./bands";
 import type { Points } from "./decimation";
 import type { Bound, Trace } from "./definitions";
 import type { Palette } from "./linestyles";
@@ -150,6 +151,10 @@ export function drawSvg(drawing: Drawing): string {
     }) => `<path d="${pathOf(points, at)}" ${strokeOf(trace, colours)} stroke-linejoin="round"/>
 <g fill="${colours[trace.colour]}">${signsOf(trace, points, at)}</g>`,
   );
+  const bands = bandsOf(curves).map(
+    ({ colour, outline }) =>
+      `<path d="${pathOf(outline, at)}" fill="${colours[colour]}" fill-opacity="${BAND_OPACITY}"/>`,
+  );
   return `<svg xmlns="http://www.w3.org/2000/svg" width="${WIDTH}" height="${HEIGHT}" viewBox="0 0 ${WIDTH} ${HEIGHT}" font-family="system-ui, sans-serif">
 <title>${safe(title)}</title>
 <rect width="100%" height="100%" fill="${colours.surface}"/>
@@ -159,7 +164,7 @@ ${axes(drawing, at)}
 <clipPath id="box"><rect x="${BOX.left}" y="${BOX.top}" width="${INNER.width}" height="${INNER.height}"/></clipPath>
 <g clip-path="url(#box)">
 ${marks(drawing, at)}
-${strokes.join("\n")}
+${[...bands, ...strokes].join("\n")}
 </g>
 </svg>
 `;

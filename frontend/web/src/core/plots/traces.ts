@@ -10,7 +10,7 @@ import {
   type Trace,
   type TraceGroup,
 } from "./definitions";
-import { DASHED, DOTTED, lineStyleOfLane, shareColours } from "./linestyles";
+import { DASHED, DOTTED, lineStyleOfLane, PLAIN, shareColours } from "./linestyles";
 
 const SIGNS: readonly PlotSign[] = ["none", "circle", "square", "triangle"];
 const WIDTHS = [3, 2, 1.25] as const;
@@ -18,7 +18,11 @@ const WIDTHS = [3, 2, 1.25] as const;
 const REFERENCE: LineStyle = { colour: "reference", dash: DOTTED, width: 1.5 };
 const BOUND: LineStyle = { ...REFERENCE, dash: DASHED };
 
-const label = (channel: ChannelName): string => t(`channelLabels.${channel}`);
+/** A bench has no true stiffness: its nominal one is computed from the measured positions. */
+const label = (channel: ChannelName, isBench = false): string =>
+  channel === "stiffness_nm_per_rad" && isBench
+    ? t("plots.nominalStiffness")
+    : t(`channelLabels.${channel}`);
 
 /** A channel of a lane while there are samples of it. */
 function trace(channel: ChannelName, lane: number, lineStyle: LineStyle, name: string): Trace {
@@ -92,14 +96,14 @@ const mirror = (limit: Trace): Trace => ({
 
 interface Sorted {
   references: ChannelName[];
-  /** Each curve with its true value or its limit. */
+  /** Each curve with its true value, its limit or its estimate. */
   leaders: { channel: ChannelName; companions: ChannelName[] }[];
 }
 
 function sort(channels: readonly ChannelName[]): Sorted {
   const leaderOf = (name: ChannelName) => {
-    const { truthOf, limitOf } = CHANNELS[name];
-    const leader = truthOf ?? limitOf;
+    const { truthOf, limitOf, estimateOf } = CHANNELS[name];
+    const leader = truthOf ?? limitOf ?? estimateOf;
     return leader !== undefined && channels.includes(leader) ? leader : null;
   };
   const references = channels.filter((name) => CHANNELS[name].isReference);
@@ -115,10 +119,31 @@ function sort(channels: readonly ChannelName[]): Sorted {
 const withMirror = (curve: Trace): Trace[] =>
   CHANNELS[curve.channel as ChannelName].limitOf === undefined ? [curve] : [curve, mirror(curve)];
 
-/** A true value or a limit, drawn with the curve it belongs to. */
+/** The edges of the band around an estimate, which are no other pieces of its curve. */
+function edgesOf({ continues: _, ...curve }: Trace): Trace[] {
+  const { band } = CHANNELS[curve.channel as ChannelName];
+  const keyOfEdge = (channel?: ChannelName) => `${channel}.${curve.key}`;
+  return (band ?? []).map((channel, index) => ({
+    ...curve,
+    key: keyOfEdge(channel),
+    channel,
+    label: label(channel),
+    width: 1,
+    sign: "none",
+    follows: curve.follows ?? curve.key,
+    ...(index === 0 && { fillsTo: keyOfEdge(band?.[1]) }),
+  }));
+}
+
+/** A true value, a limit or an estimate, drawn with the curve it belongs to. */
 function compose(companion: ChannelName, own: readonly Trace[], cast: LaneSegments): Trace[] {
   const isAlone = cast.length <= 1;
   const [leader] = own;
+  if (CHANNELS[companion].estimateOf !== undefined) {
+    const lineStyle: LineStyle = { colour: CHANNELS[companion].colour, dash: PLAIN, width: 1.5 };
+    const name = { lane: cast[0]?.at(-1)?.name ?? "", channel: label(companion) };
+    return [trace(companion, 1, lineStyle, isAlone ? name.channel : t("plots.ofLane", name))];
+  }
   if (CHANNELS[companion].truthOf !== undefined) {
     if (isAlone && leader !== undefined) {
       const lineStyle: LineStyle = { colour: leader.colour, dash: DASHED, width: 1.5 };
@@ -146,7 +171,11 @@ function compose(companion: ChannelName, own: readonly Trace[], cast: LaneSegmen
  * The line style of each lane's controller. One lane with several channels has one color per
  * channel; several lanes with several channels have one marker per channel.
  */
-export function composeContent(channels: readonly ChannelName[], cast: LaneSegments): PlotContent {
+export function composeContent(
+  channels: readonly ChannelName[],
+  cast: LaneSegments,
+  isBench = false,
+): PlotContent {
   const { references, leaders } = sort(channels);
   const isAlone = cast.length <= 1;
   const isOneName = isAlone && countControllers(cast) === 1;
@@ -162,11 +191,16 @@ export function composeContent(channels: readonly ChannelName[], cast: LaneSegme
       (segment) => (isByChannel ? channel : keyOf(channel, segment)),
       (segment, isChosen) => ({
         lineStyle: isByChannel ? ofChannel : lineStyleOfLane(segment.lineStyle, isChosen),
-        label: isByChannel || isOneName ? label(channel) : segment.name,
+        label: isByChannel || isOneName ? label(channel, isBench) : segment.name,
       }),
     ).map((curve): Trace => ({ ...curve, sign }));
     const added = companions.flatMap((name) => compose(name, own, cast).flatMap(withMirror));
-    return { key: channel, label: label(channel), traces: [...own, ...added] };
+    // An estimate is on top of the curve that it estimates, and its band below both.
+    const isEstimate = (curve: Trace) => CHANNELS[curve.channel as ChannelName].band !== undefined;
+    const estimates = added.filter(isEstimate);
+    const others = added.filter((curve) => !isEstimate(curve));
+    const traces = [...estimates, ...own, ...others, ...[...own, ...estimates].flatMap(edgesOf)];
+    return { key: channel, label: label(channel, isBench), traces };
   });
   const common = references.map((name) => trace(name, 1, REFERENCE, label(name)));
   return { groups, common };
@@ -197,6 +231,16 @@ export const hasUnnamedTruth = (traces: readonly Trace[]): boolean =>
     const { truthOf } = CHANNELS[channel as ChannelName];
     return traces.some((curve) => curve.key === follows && curve.channel === truthOf);
   });
+
+/** What the stiffness is whose legend entry has the name of a controller; undefined without one. */
+export function noteOfStiffness(traces: readonly Trace[], isBench: boolean): string | undefined {
+  const name = label("stiffness_nm_per_rad", isBench);
+  const isNamed = traces.every(
+    (curve) => curve.channel !== "stiffness_nm_per_rad" || curve.label === name,
+  );
+  if (isNamed) return undefined;
+  return isBench ? t("plots.nominalNote") : t("plots.trueNote");
+}
 
 /**
  * Whether a legend entry has one value: several lanes share an entry for their true values, which

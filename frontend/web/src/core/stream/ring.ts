@@ -1,40 +1,12 @@
 /** The samples that the page requests, derives and stores. */
-import type { StreamedName } from "../api/types";
 import type { Batch } from "./decoder";
+import { type DerivedName, derive, derivedFrom, orMissing } from "./derived";
 import { TimeRing } from "./times";
 
 export const RATE_HZ = 200;
 /** Seconds of past that follow the first samples; the server stores no more. */
 export const HISTORY_S = 20;
 export const MAX_WINDOW_S = 60;
-
-// Channels that the page computes from two streamed ones: `minuend` minus `subtrahend`, sample by sample.
-
-const DERIVED_CHANNELS = {
-  /** ė = q̇_d − q̇. */
-  velocity_error_rad_per_s: {
-    minuend: "velocity_reference_rad_per_s",
-    subtrahend: "velocity_rad_per_s",
-  },
-} as const satisfies Record<string, { minuend: StreamedName; subtrahend: StreamedName }>;
-
-export type DerivedName = keyof typeof DERIVED_CHANNELS;
-const DERIVED_NAMES = Object.keys(DERIVED_CHANNELS) as DerivedName[];
-
-/** The channels that can be derived from these. */
-const derivedFrom = (channels: readonly string[]): DerivedName[] =>
-  DERIVED_NAMES.filter(
-    (name) =>
-      channels.includes(DERIVED_CHANNELS[name].minuend) &&
-      channels.includes(DERIVED_CHANNELS[name].subtrahend),
-  );
-
-/** The channels to request for a channel: itself, or those it is derived from. */
-export function sourcesOf(channel: string): string[] {
-  if (!Object.hasOwn(DERIVED_CHANNELS, channel)) return [channel];
-  const { minuend, subtrahend } = DERIVED_CHANNELS[channel as DerivedName];
-  return [minuend, subtrahend];
-}
 
 // The newest samples of a session, one column per channel and lane, in arrays that are never
 // reallocated. `setLanes` sets the lanes and their order; each batch contains the ids of its lanes:
@@ -104,7 +76,7 @@ export class SampleRing extends TimeRing {
         let source = (row * batch.lanes.length + batchIndex) * width;
         for (const channel of this.#channels) {
           const value = batchIndex < 0 ? Number.NaN : (batch.values[source++] as number);
-          (columns.get(channel) as Float32Array)[this.head] = value;
+          (columns.get(channel) as Float32Array)[this.head] = orMissing(channel, value);
         }
         for (const name of derived) this.#derive(columns, name);
       }
@@ -142,9 +114,8 @@ export class SampleRing extends TimeRing {
   }
 
   #derive(columns: ReadonlyMap<string, Float32Array>, name: DerivedName): void {
-    const { minuend, subtrahend } = DERIVED_CHANNELS[name];
     const value = (channel: string) => (columns.get(channel) as Float32Array)[this.head] as number;
-    (columns.get(name) as Float32Array)[this.head] = value(minuend) - value(subtrahend);
+    (columns.get(name) as Float32Array)[this.head] = derive(name, value);
   }
 
   /** Create a ring for other channels that begins with the samples of this one. */

@@ -93,6 +93,21 @@ export const controlsText = {
     spread: "The channels differ; the slider sets all three.",
     unused: "{{law}} does not use this estimate; the observer runs in parallel.",
   },
+  spring: {
+    title: "Spring estimator",
+    on: "Estimate the stiffness",
+    onHint:
+      "Estimates σ and its interval from position and torque of motor 1, and starts from the prior",
+    each: "Prior, noise and limits",
+    unknown: "not known yet",
+    misfit: "model does not fit: no estimate",
+    sentences: {
+      known: "Stiffness known to ±{{percent}} %",
+      unknown: "Stiffness not known yet: apply a load",
+      misfit:
+        "Another spring shape, or a load on motor 1: no estimate. Switch the estimator off and on to start it again.",
+    },
+  },
   load: {
     title: "Load",
     weight: "3 kg",

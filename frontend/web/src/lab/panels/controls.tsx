@@ -11,6 +11,7 @@ import { hasOtherLoads, Loads } from "./load";
 import { Motion } from "./motion";
 import { Observer } from "./observer";
 import { Realism } from "./realism";
+import { Spring } from "./spring";
 import { Stiffness } from "./stiffness";
 
 interface ControlsProps {
@@ -44,7 +45,12 @@ export function Controls({ state: session, isBasic = false }: ControlsProps) {
             </>
           )}
           <Controller state={state} isBasic={isBasic} />
-          {!isBasic && <Observer state={state} />}
+          {!isBasic && (
+            <>
+              <Observer state={state} />
+              <Spring state={state} />
+            </>
+          )}
           {(!isBasic || hasOtherLoads(state)) && <Loads state={state} />}
           {state.bench === null && (!isBasic || state.configuration.effects_preset !== "ideal") && (
             <Realism state={state} />

@@ -59,6 +59,7 @@ const WRITE: Record<CommandKind, Write> = {
   stiffness: assignKind("Stiffness"),
   gains: assignValue("Gains"),
   observer: assignValue("ObserverBandwidth"),
+  spring: assignValue("SpringEstimation"),
   effects: assignValue("Effects"),
   actuator: assignModel,
   nominal: assignModel,

@@ -8,7 +8,9 @@ import { findChanges, isEqual } from "../../core/state/changes";
 import { changeArm, INDENT, writeCommand } from "./commands";
 import { type Fields, inDocstring, toPython } from "./snippets";
 
-const SETTINGS = ["law", "position", "stiffness", "gains", "observer", "effects", "comparisons"];
+const SETTINGS = [
+  ...["law", "position", "stiffness", "gains", "observer", "spring", "effects", "comparisons"],
+];
 const MODELS = ["actuator", "nominal"] as const;
 const ARM_FIELDS = ["feedforward", "adaptation", "tip", "links", "model"];
 /** Commands that are of no joint, unless they name one. */

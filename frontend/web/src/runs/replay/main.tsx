@@ -86,6 +86,7 @@ function App({ recording }: { recording: Recording }) {
               events={recording.run.events}
               isFirst={index === 0}
               isLast={index === plots.length - 1}
+              isBench={recording.run.plant !== "simulated"}
             />
           ))}
         </section>

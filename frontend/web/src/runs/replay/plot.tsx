@@ -5,7 +5,7 @@ import { drawEventLines, eventsInView, type RunEvent } from "../../core/plots/ev
 import { Legend, useHidden } from "../../core/plots/legend";
 import { palette } from "../../core/plots/linestyles";
 import { describeTimeChart, type TimeChart, useStaticChart } from "../../core/plots/staticchart";
-import { hasOneValue, hasUnnamedTruth } from "../../core/plots/traces";
+import { hasOneValue, hasUnnamedTruth, noteOfStiffness } from "../../core/plots/traces";
 import { t } from "../../core/text/t";
 import { formatNumber } from "../../core/units";
 import { range, seek, showAll, showRange, timeS } from "./clock";
@@ -20,6 +20,7 @@ interface PlotProps {
   events: readonly RunEvent[];
   isFirst: boolean;
   isLast: boolean;
+  isBench: boolean;
 }
 
 /** The chart in its host element, and the legend elements that show its values. */
@@ -28,9 +29,10 @@ function useChart(props: PlotProps, curves: readonly Curve[], hidden: TimeChart[
   const readings = useRef(new Map<string, HTMLElement>()).current;
   const chart = useMemo(() => {
     const read = (drawn: uPlot) => {
-      for (const { key, values } of curves) {
+      const index = findSample(drawn);
+      for (const { key, values, describe } of curves) {
         const output = readings.get(key);
-        if (output) output.textContent = formatNumber(readCurve(drawn, values), 3, 3);
+        if (output) output.textContent = describe?.(index) ?? formatNumber(values[index], 3, 3);
       }
     };
     return describeTimeChart({
@@ -94,7 +96,11 @@ export function Plot(props: PlotProps) {
           </fieldset>
         )}
         <Legend
-          note={hasUnnamedTruth(curves) ? t("plots.disturbanceNote") : undefined}
+          note={
+            hasUnnamedTruth(curves)
+              ? t("plots.disturbanceNote")
+              : noteOfStiffness(curves, props.isBench)
+          }
           entries={curves.filter((curve) => curve.follows === undefined)}
           hidden={hidden.value}
           onToggle={toggle}
@@ -131,11 +137,11 @@ function placeTimeLine(plot: uPlot): void {
   line.style.translate = `${plot.valToPos(time, "x").toFixed(2)}px`;
 }
 
-/** Value of a curve at the pointer, otherwise at the current time. */
-function readCurve({ data: [time], cursor }: uPlot, values: Float32Array): number {
+/** Index of the sample at the pointer, otherwise at the current time. */
+function findSample({ data: [time], cursor }: uPlot): number {
   const step = (time[1] ?? 1) - (time[0] ?? 0);
   const now = Math.min(Math.round(timeS.peek() / step), time.length - 1);
-  return values[cursor.idx ?? now] ?? Number.NaN;
+  return cursor.idx ?? now;
 }
 
 // The labels of the run's events, above the first plot.

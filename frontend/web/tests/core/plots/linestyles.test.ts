@@ -52,7 +52,7 @@ describe("line styles of several curves", () => {
 });
 
 it("only the selected controller is solid, and only references are dotted", () => {
-  for (const lineStyle of Array.from({ length: 20 }, (_, index) => index)) {
+  for (const lineStyle of Array.from({ length: 30 }, (_, index) => index)) {
     expect(lineStyleOfLane(lineStyle, true).dash).toEqual([]);
     for (const { dash } of [lineStyleOf(lineStyle), lineStyleOfLane(lineStyle, false)]) {
       expect(

@@ -206,7 +206,7 @@ describe("the curves of a plot", () => {
   it("have one unit per plot, and every channel belongs to one unit", () => {
     const names = CHANNELS_BY_UNIT.flatMap(({ channels }) => channels);
     expect(new Set(names).size).toBe(names.length);
-    expect(names).toHaveLength(29);
+    expect(names).toHaveLength(36);
   });
 });
 

@@ -1,6 +1,7 @@
 import { describe, expect, it } from "vitest";
 import type { Batch } from "../../../src/core/stream/decoder";
-import { SampleRing, sourcesOf } from "../../../src/core/stream/ring";
+import { sourcesOf } from "../../../src/core/stream/derived";
+import { SampleRing } from "../../../src/core/stream/ring";
 
 describe("a derived channel", () => {
   const VELOCITIES = ["velocity_reference_rad_per_s", "velocity_rad_per_s"];
@@ -33,5 +34,17 @@ describe("a derived channel", () => {
     held.completeFrom(both);
     expect(derived(held)).toEqual([2]);
     expect(derived(both.withChannels(VELOCITIES.slice(0, 1)))).toEqual([Number.NaN]);
+  });
+
+  it("is an edge of the band of the stiffness estimate, and a gap while the estimator is off", () => {
+    const names = ["stiffness_estimate_nm_per_rad", "stiffness_deviation_nm_per_rad"];
+    const ring = new SampleRing(10, names, [1]);
+    ring.append(of(0, 40, 0.5), 1);
+    ring.append(of(1, 0, 0), 1);
+    const read = (edge: string) => [0, 1].map((index) => ring.valueAt(edge, index));
+    expect(read("stiffness_upper_nm_per_rad")[0]).toBeCloseTo(40.98, 5);
+    expect(read("stiffness_lower_nm_per_rad")[0]).toBeCloseTo(39.02, 5);
+    expect(read("stiffness_lower_nm_per_rad")[1]).toBeNaN();
+    expect(sourcesOf("stiffness_upper_nm_per_rad")).toEqual(names);
   });
 });
