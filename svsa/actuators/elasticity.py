@@ -318,11 +318,13 @@ def find_spring_scale(actuator: AnyActuator) -> tuple[float, ...] | None:
         return none
     low, high = actuator.lowest, actuator.highest
     points = [(low + share * (high - low), phi) for share in (0.3, 0.7) for phi in (0.02, 0.1)]
-    used = [i for i, value in enumerate(_list_values(actuator)) if value != 0.0]
+    rest, elastic = actuator[:-MAX_ELASTIC], actuator[-MAX_ELASTIC:]
+    used = [i for i, value in enumerate(elastic) if value != 0.0]
     for count in range(1, len(used) + 1):
         for chosen in itertools.combinations(used, count):
             mask = tuple(float(i in chosen) for i in range(MAX_ELASTIC))
-            doubled = scale_spring(actuator, 2.0, mask)
+            values = (value * (1.0 + one) for value, one in zip(elastic, mask, strict=True))
+            doubled = ElasticActuator(*rest, *values)
             torques = [compute_torques(actuator, *point).torque for point in points]
             twice = [compute_torques(doubled, *point).torque for point in points]
             if all(

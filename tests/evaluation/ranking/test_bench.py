@@ -141,7 +141,7 @@ KEPT = {f"{run.law} {run.figure}": run for run in load_published_bench_runs().ru
 def test_saved_results_of_the_rig_are_reproduced(name, monkeypatch):
     """The rig in this process, which gives the same bits as through its sockets."""
     monkeypatch.setattr(
-        "svsa.hardware.emulator.experiment.start_emulator", lambda lockstep: start_in_process()
+        "svsa.hardware.emulator.experiment.start_emulator", lambda *_: start_in_process()
     )
     kept = KEPT[name]
     found = measure_run(0, (kept.law, kept.figure), lambda number, done: None)
