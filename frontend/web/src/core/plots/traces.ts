@@ -10,6 +10,7 @@ import {
   type Trace,
   type TraceGroup,
 } from "./definitions";
+import { ESTIMATE } from "./estimate";
 import { DASHED, DOTTED, lineStyleOfLane, PLAIN, shareColours } from "./linestyles";
 
 const SIGNS: readonly PlotSign[] = ["none", "circle", "square", "triangle"];
@@ -232,13 +233,16 @@ export const hasUnnamedTruth = (traces: readonly Trace[]): boolean =>
     return traces.some((curve) => curve.key === follows && curve.channel === truthOf);
   });
 
-/** What the stiffness is whose legend entry has the name of a controller; undefined without one. */
+/**
+ * What the stiffness next to its estimate is, if its legend entry has the name of a controller;
+ * otherwise undefined.
+ */
 export function noteOfStiffness(traces: readonly Trace[], isBench: boolean): string | undefined {
   const name = label("stiffness_nm_per_rad", isBench);
   const isNamed = traces.every(
     (curve) => curve.channel !== "stiffness_nm_per_rad" || curve.label === name,
   );
-  if (isNamed) return undefined;
+  if (isNamed || traces.every(({ channel }) => channel !== ESTIMATE)) return undefined;
   return isBench ? t("plots.nominalNote") : t("plots.trueNote");
 }
 

@@ -56,6 +56,8 @@ describe("the plot of the stiffness", () => {
     expect(entries(two)).toEqual(["NDOBC σ̂", "NDOBC", "FL"]);
     expect(noteOfStiffness(trace(two), false)).toBe("true σ");
     expect(noteOfStiffness(trace(two, true), true)).toBe("bench: nominal σ");
+    const alone = trace(two, true).filter(({ channel }) => channel !== channels[1]);
+    expect(noteOfStiffness(alone, true)).toBeUndefined();
   });
 
   it("has a band around the estimate, hidden with it, and interrupted by its gaps", () => {
