@@ -8,6 +8,7 @@ from playwright.sync_api import Page, expect
 from tests.browser.test_page import choose, open_page
 from tests.browser.test_plots import STREAMED, find_plot
 from tests.lab import Lab
+from tests.waiting import wait_until
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d", "still")]
 
@@ -27,6 +28,7 @@ def test_stiffness_has_a_number_only_after_a_load_has_shown_it(page: Page, lab: 
 
     group = page.get_by_role("region", name="Spring estimator", exact=True)
     choose(group.get_by_role("checkbox", name="Estimate the stiffness"))
+    wait_until(lambda: page.evaluate(STREAMED, "spring_misfit"))
     lab.jump(1)
     expect(estimate).to_contain_text("not known yet")
     expect(group).to_contain_text("Stiffness not known yet: apply a load")
